@@ -34,6 +34,27 @@ def writing(folder: Path) -> Iterator[Path]:
         shutil.rmtree(aside, ignore_errors=True)
 
 
+@contextmanager
+def whole(path: Path) -> Iterator[Path]:
+    """A name next to a file to write it to, which becomes the file when it is complete."""
+    aside = path.with_suffix(f".{os.getpid()}")
+    try:
+        yield aside
+        aside.replace(path)
+    finally:
+        aside.unlink(missing_ok=True)
+
+
+PARTS = ".parts-"
+"""Name, but for its end, of the folder next to a result that keeps what an interrupted run has done."""
+
+
+def clear_parts(out: Path) -> None:
+    """Remove the parts of finished and abandoned runs."""
+    for folder in out.glob(f"{PARTS}*"):
+        shutil.rmtree(folder, ignore_errors=True)
+
+
 OWN = {
     ".svg": b"<dc:title>mixedlub</dc:title>",
     ".png": b"Software\x00mixedlub",

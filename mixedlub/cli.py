@@ -13,8 +13,10 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import typer
 
+from mixedlub.atomic import PARTS
 from mixedlub.commands import (
     check,
+    condense,
     diagnose,
     effects,
     ehl,
@@ -23,6 +25,7 @@ from mixedlub.commands import (
     gear,
     import_files,
     kinds,
+    law_errors,
     new,
     profile,
     prove,
@@ -53,6 +56,8 @@ COMMANDS = (
     simulate,
     gear,
     ehl,
+    law_errors,
+    condense,
     diagnose,
     check,
     import_files,
@@ -63,7 +68,11 @@ COMMANDS = (
     prove,
 )
 
-PARTIAL = {study.NAME: ".parts-*/*.parquet", prove.NAME: "**/*"}
+PARTIAL = {
+    study.NAME: f"{PARTS}*/*.parquet",
+    **dict.fromkeys((ehl.NAME, law_errors.NAME, condense.NAME), f"{PARTS}*/*.npz"),
+    prove.NAME: "**/*",
+}
 """Commands that keep what they did when they are stopped, with the pattern of those files."""
 CTRL_C = 130
 """Status of a command that Ctrl-C stopped, as shells have it; that of typer too."""

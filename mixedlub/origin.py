@@ -7,6 +7,7 @@ import json
 import os
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -78,6 +79,20 @@ def origin_of(source: Path, names: Collection[str]) -> Origin:
         content = path.read_bytes() if path.is_file() else b""
         digest.update(f"{name}:{len(content)}:".encode() + content)
     return Origin(source, digest.hexdigest())
+
+
+@cache
+def code_fingerprint() -> str:
+    """A hash of every line of code that results depend on."""
+    import numpy as np
+
+    import roughness
+
+    digest = hashlib.sha256(np.__version__.encode())
+    for package in (Path(__file__).parent, Path(roughness.__path__[0])):
+        for path in sorted(package.rglob("*.py")):
+            digest.update(path.read_bytes())
+    return digest.hexdigest()
 
 
 def as_left(folder: Path) -> dict[str, str]:

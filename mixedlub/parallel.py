@@ -5,8 +5,8 @@ from __future__ import annotations
 import multiprocessing
 import os
 import sys
-from collections.abc import Callable, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from typing import Any, TypeVar
 
 Item = TypeVar("Item")
@@ -23,12 +23,28 @@ def shared_out(function: Callable[[Item], Result], items: Sequence[Item]) -> lis
     >>> shared_out(lambda item: item**2, [1, 2, 3])
     [1, 4, 9]
     """
+    found = dict(as_done(function, items))
+    return [found[place] for place in range(len(items))]
+
+
+def as_done(function: Callable[[Item], Result], items: Sequence[Item]) -> Iterator[tuple[int, Result]]:
+    """Places and results of ``function(item)``, each as soon as it is there; shared as by `shared_out`.
+
+    >>> sorted(as_done(lambda item: item**2, [1, 2, 3]))
+    [(0, 1), (1, 4), (2, 9)]
+    """
     count = min(len(items), len(os.sched_getaffinity(0)) if sys.platform == "linux" else 1)
     if count < 2 or multiprocessing.parent_process() is not None:
-        return [function(item) for item in items]
+        yield from ((place, function(item)) for place, item in enumerate(items))
+        return
     fork = multiprocessing.get_context("fork")
     with ProcessPoolExecutor(count, fork, initializer=_take, initargs=(function, items)) as pool:
-        return list(pool.map(_one, range(len(items))))
+        places = {pool.submit(_one, place): place for place in range(len(items))}
+        try:
+            for done in as_completed(places):
+                yield places[done], done.result()
+        finally:
+            pool.shutdown(cancel_futures=True)
 
 
 def _take(function: Callable[[Any], Any], items: Sequence[Any]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -36,12 +36,17 @@ class Coefficient:
     default: float | None = None
 
 
+Limits = tuple[str | None, str, float]
+"""Coefficients that are the ends of a range, the lower one zero where none is, and their factor to SI."""
+
+
 @dataclass(frozen=True, repr=False)
 class FrictionLaw:
     """A friction law: the function, where it is evaluated, and what is known of its validity.
 
-    ``valid`` is the range of its source in SI, by quantity of the glossary; ``diverges`` names quantities at whose
-    zero the law has no finite value; ``sources`` counts independent sources of the constants, 0 where none was found.
+    ``valid`` is the range of its source in SI, by quantity of the glossary; ``limits`` names the coefficients that are
+    the ends of such a range, and their factor to SI; ``diverges`` names quantities at whose zero the law has no finite
+    value; ``sources`` counts independent sources of the constants, 0 where none was found.
     """
 
     name: str
@@ -53,6 +58,16 @@ class FrictionLaw:
     valid: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     diverges: tuple[str, ...] = ()
     coefficients: tuple[Coefficient, ...] = ()
+    limits: Mapping[str, Limits] = field(default_factory=dict)
+
+    def bounded(self, given: Mapping[str, float]) -> FrictionLaw:
+        """The law with the range that its coefficients give it."""
+        own = {
+            name: (given[low] * factor if low else 0.0, given[high] * factor)
+            for name, (low, high, factor) in self.limits.items()
+            if high in given
+        }
+        return replace(self, valid={**self.valid, **own})
 
     @property
     def reads(self) -> tuple[str, ...]:
@@ -195,6 +210,7 @@ def friction_law(
     valid: Mapping[str, tuple[float, float]] | None = None,
     diverges: tuple[str, ...] = (),
     coefficients: tuple[Coefficient, ...] = (),
+    limits: Mapping[str, Limits] | None = None,
 ) -> Callable[[Function], Function]:
     """Register the function below as a friction law under its own name.
 
@@ -203,7 +219,8 @@ def friction_law(
     """
 
     def register(law: Function) -> Function:
-        found = FrictionLaw(law.__name__, law, title, place, sources, status, valid or {}, diverges, coefficients)
+        about = (title, place, sources, status, valid or {}, diverges, coefficients, limits or {})
+        found = FrictionLaw(law.__name__, law, *about)
         _check(found)
         REGISTRY[found.name] = found
         return law

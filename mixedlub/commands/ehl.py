@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from mixedlub.atomic import writing
-from mixedlub.commands.console import busy, echo, input_errors_from, note, output_folder, print_findings
+from mixedlub.atomic import clear_parts, writing
+from mixedlub.commands.console import echo, input_errors_from, note, output_folder, print_findings
 from mixedlub.commands.figure_options import FiguresOrTables, Formats, chosen_formats
+from mixedlub.commands.study import Scheduler, progress_bar, resumed
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -27,14 +28,17 @@ def command(
     ] = None,
     figures: FiguresOrTables = True,
     format_: Formats = "svg",
+    scheduler: Scheduler = None,
 ) -> None:
     """Film, friction and temperatures of line contacts.
 
     By the full equations of thermal elastohydrodynamic lubrication, each with a status and an error: contacts.csv,
     profiles.csv (through each contact) and figures.
+
+    An interrupted run resumes when it is started again with the same inputs.
     """
-    from mixedlub.ehl.file import read_problem
-    from mixedlub.ehl.solve import CONVERGED, solved
+    from mixedlub.ehl.file import read_problem, solved_problem
+    from mixedlub.ehl.solve import CONVERGED, Way
     from mixedlub.ehl.table import contact_table, profile_table
 
     formats = chosen_formats(format_)
@@ -43,8 +47,9 @@ def command(
     print_findings(problem.notes)
     folder = output_folder(out, NAME, file.stem)
     start = time.perf_counter()
-    with busy("solving"):
-        data = solved(problem.oil, problem.contacts, thermal=problem.file.thermal)
+    with progress_bar("solving") as bar:
+        way = Way(folder, scheduler, resumed(bar))
+        data = solved_problem(problem, way)
     taken = time.perf_counter() - start
     table, profiles = contact_table(problem, data), profile_table(data)
     failed = table.loc[table["status"] != CONVERGED, "contact"].to_list()
@@ -53,6 +58,7 @@ def command(
         profiles.to_csv(aside / "profiles.csv", index=False, lineterminator="\n", float_format="%.6g")
         if figures and len(profiles):
             _draw(problem.file.title, table, profiles, aside, formats)
+    clear_parts(folder)
     echo(f"{len(table) - len(failed)} of {len(table)} contacts solved in {taken:.2f} s")
     for row in table.head(MOST_PRINTED).to_dict("records"):
         echo(_line(row) if row["status"] == CONVERGED else f"  contact {row['contact']}: {row['status']}")
@@ -70,9 +76,11 @@ NEWTONIAN_PRESSURE = 0.5e9
 
 
 def _line(row: Mapping[Any, Any]) -> str:
+    friction = row.get("mixed_friction_coefficient", row["friction_coefficient"])
+    shared = f", asperities carry {100.0 * row['asperity_load_share']:.3g} %" if "asperity_load_share" in row else ""
     return (
         f"  contact {row['contact']}: film {row['central_film_um']:.4g} um (least {row['minimum_film_um']:.4g}, error"
-        f" {row['central_film_error_percent']:.1g} %), friction {row['friction_coefficient']:.4f}"
+        f" {row['central_film_error_percent']:.1g} %), friction {friction:.4f}{shared}"
     )
 
 

@@ -79,16 +79,17 @@ def _compare(
     from mixedlub.schema.toml_file import read_toml
     from mixedlub.study import read_study
     from mixedlub.study.friction_comparison import compared, mesh_table
+    from mixedlub.study.friction_options import few
 
     formats = chosen_formats(format_)
     with input_errors_from(str(study)):
         read = read_study(study)
-        given: dict[str, Any] = {} if coefficients is None else read_toml(coefficients)
+        given: dict[str, Any] = {} if coefficients is None else _of_files(read_toml(coefficients), coefficients.parent)
         comparison = compared(read, given, pairing=pairing, **condition)
     folder = output_folder(out, NAME, read.name)
     print_findings(read.notes)
     for name, lacking in comparison.left_out.items():
-        note(f"{name} is left out: give {', '.join(lacking)} in a file for --coefficients")
+        note(f"{name} is left out: give {few(lacking)} in a file for --coefficients")
     if read.file.effects:
         note("the effects of the study are left out of the comparison")
     with writing(folder) as aside, busy("computing"):
@@ -107,3 +108,8 @@ def _compare(
         captions = "\n\n".join(f"{one.name}\n{one.caption}" for one in drawn)
         (aside / "captions.txt").write_text(captions + "\n", encoding="utf-8")
     echo(f"along_path.csv, over_slide_roll_ratio.csv, mesh.csv and figures in {folder}")
+
+
+def _of_files(given: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """The coefficients by law; files that are named are relative to the folder of the file that names them."""
+    return {name: str(folder / own) if isinstance(own, str) else own for name, own in given.items()}

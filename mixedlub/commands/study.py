@@ -10,13 +10,17 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.atomic import writing
+from mixedlub.atomic import clear_parts, writing
 from mixedlub.commands.console import busy, echo, input_errors_from, named_folder, note, output_folder, print_findings
 from mixedlub.commands.figure_options import Formats, chosen_formats
 from profiles.errors import InputError
 
 NAME = "study"
 EXAMPLE = "mixedlub new study --out my_study && mixedlub study my_study/study.toml"
+
+Scheduler = Annotated[
+    str | None, typer.Option(metavar="ADDRESS", help="Address of a Dask scheduler, e.g. tcp://host:8786.")
+]
 
 
 def command(
@@ -36,9 +40,7 @@ def command(
     replace: Annotated[
         bool, typer.Option("--replace", help="Replace the result of another study, or other files, in that folder.")
     ] = False,
-    scheduler: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="Address of a Dask scheduler, e.g. tcp://host:8786.")
-    ] = None,
+    scheduler: Scheduler = None,
 ) -> None:
     """Power loss of every pairing at every condition.
 
@@ -73,7 +75,7 @@ def command(
                 study,
                 parts=checkpoint.parts_folder(folder, study.plan),
                 scheduler=scheduler,
-                progress=_resumed(bar),
+                progress=resumed(bar),
             )
         echo(f"computed in {time.perf_counter() - start:.2f} s")
         warnings = out_of_range(results)
@@ -94,7 +96,7 @@ def command(
                     )
                 print_findings(of_heights)
             write_record(aside, folder, study, file, given)
-        checkpoint.clear(folder)
+        clear_parts(folder)
     page = folder / "index.html"
     if not figures and page.exists() and checkpoint.fingerprint(study.plan) not in page.read_text("utf-8", "replace"):
         note(f"{page} and the figures beside it are of another study; without --no-figures they are drawn anew")
@@ -103,7 +105,7 @@ def command(
     echo(f"results in {folder / 'results.csv'} and .parquet" + (f", page {page}" if figures else ""))
 
 
-def _resumed(progress: Callable[[int, int], None]) -> Callable[[int, int], None]:
+def resumed(progress: Callable[[int, int], None]) -> Callable[[int, int], None]:
     """The same progress callback, which first reports the blocks of an earlier run."""
     calls = 0
 

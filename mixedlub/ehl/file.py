@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
 from mixedlub.ehl.line_contacts import Contacts
+from mixedlub.ehl.mixed import Asperities, laws, solve_mixed, yielding
 from mixedlub.ehl.oil.file import oil_of
 from mixedlub.ehl.oil.oil import Oil
-from mixedlub.ehl.solve import STEEL, build_contacts, check
+from mixedlub.ehl.solve import STEEL, Way, build_contacts, check
 from mixedlub.gear import mesh
 from mixedlub.laws.contact import reduced_modulus
 from mixedlub.laws.load import gear_line_load
@@ -22,10 +23,16 @@ from mixedlub.schema.findings import Finding, collected
 from mixedlub.schema.section import Number, Section, Whole, examples, key
 from mixedlub.schema.system_file import Gears
 from mixedlub.schema.toml_file import parse, read_toml
+from mixedlub.slots import ASPERITY_LOAD
 from profiles.errors import InputError
+
+if TYPE_CHECKING:
+    import xarray
 
 EXAMPLE_KEYS = ("radius_mm", "line_load_N_mm", "entrainment_speed_m_s", "slide_roll_ratio", "oil_temperature_C")
 """Keys of a contact in the template."""
+LAWS, YIELDING = laws(), yielding()
+"""Laws of asperities, and those that read a hardness."""
 STEEL_MODULUS, STEEL_RATIO = (206.0, 206.0), (0.3, 0.3)
 """Young's moduli (GPa) and Poisson's ratios of two steel bodies."""
 Positive = Annotated[Number, Field(gt=0.0)]
@@ -93,6 +100,36 @@ class GearPath(Section):
     points: Whole = key("places along the path, about", 24, ge=1, le=1000)
 
 
+class AsperitySection(Section):
+    """Asperities of both surfaces together, which share the load with the film."""
+
+    m0_um2: Positive = key("variance of the heights of both surfaces", example=0.137)
+    m2: Positive = key("variance of their slopes", example=0.0031)
+    m4_per_um2: Positive = key("variance of their curvatures", example=0.0021)
+    law: Literal[LAWS] = key(  # type: ignore[valid-type]
+        "law of the asperities", LAWS[0], values={name: ASPERITY_LOAD.choices[name].meaning for name in LAWS}
+    )
+    hardness_GPa: Positive | None = key(
+        "indentation hardness of the softer body, for asperities that yield", None, example=6.0, alternative=True
+    )
+    boundary_friction: Positive = key("friction coefficient of the asperities", 0.1)
+
+    @model_validator(mode="after")
+    def _hardness_where_read(self) -> AsperitySection:
+        reads = self.law in YIELDING
+        if reads and self.hardness_GPa is None:
+            raise ValueError(f'law = "{self.law}" needs hardness_GPa')
+        if not reads and self.hardness_GPa is not None:
+            raise ValueError(f'hardness_GPa acts only with asperities that yield; with law = "{self.law}" leave it out')
+        return self
+
+    def asperities(self) -> Asperities:
+        """In SI."""
+        hardness = np.nan if self.hardness_GPa is None else self.hardness_GPa * 1e9
+        moments = self.m0_um2 * 1e-12, self.m2, self.m4_per_um2 * 1e12
+        return Asperities(*moments, self.law, self.boundary_friction, hardness)
+
+
 class EhlFile(Section):
     """A file of contacts to solve."""
 
@@ -104,6 +141,7 @@ class EhlFile(Section):
     contacts: ContactList | None = key("contacts; or [gears] and [path]", None)
     gears: Gears | None = key("a gear pair, as in a study", None)
     path: GearPath | None = key("where and how the gear pair runs", None)
+    asperities: AsperitySection | None = key("asperities that share the load; left out: smooth surfaces", None)
 
     @model_validator(mode="after")
     def _contacts_or_path(self) -> EhlFile:
@@ -149,6 +187,14 @@ def read_problem(path: Path) -> Problem:
     except InputError as error:
         raise InputError(error.rule, where=f"{path}: {error.where}", value=error.value) from None
     return Problem(file, oil, contacts, position, tuple(notes))
+
+
+def solved_problem(problem: Problem, way: Way) -> xarray.Dataset:
+    """Solutions of the contacts, with asperities where the file has them."""
+    thermal, own = problem.file.thermal, problem.file.asperities
+    if own is None:
+        return way.solved(problem.oil, problem.contacts, thermal=thermal)
+    return solve_mixed(problem.oil, problem.contacts, own.asperities(), thermal=thermal, way=way)
 
 
 def _listed_contacts(file: EhlFile) -> tuple[dict[str, np.ndarray], float, np.ndarray]:

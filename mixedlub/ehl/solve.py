@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from mixedlub.ehl.levels import NODES, Solved, solve_levels
 from mixedlub.ehl.line_contacts import Contacts, Solids, numbers, of_both
 from mixedlub.ehl.measures import CHECKS, PROFILES, QUANTITIES, measures
 from mixedlub.ehl.oil.oil import Oil
+from mixedlub.ehl.run import parts_folder, run_parts
 from mixedlub.laws.contact import reduced_modulus
-from mixedlub.parallel import shared_out
 from profiles.errors import InputError, refuse_other
 
 if TYPE_CHECKING:
     import xarray
 
-BATCH = 16
-"""Contacts that are solved together: more of them fill no processor better, and their matrices leave its cache."""
 CONVERGED, DIVERGED = "converged", "no solution"
 """Words of the status."""
 STEEL = {"conductivity": 46.0, "density": 7850.0, "heat_capacity": 470.0}
@@ -146,15 +145,20 @@ def _within(value: np.ndarray, low: float, high: float) -> np.ndarray:
     return (value >= low) & (value <= high)
 
 
-def solved(oil: Oil, contacts: Contacts, *, thermal: bool) -> xarray.Dataset:
-    """Solutions of contacts that are checked, in batches shared between the processors."""
+def solved(
+    oil: Oil,
+    contacts: Contacts,
+    *,
+    thermal: bool,
+    keep: Path | None = None,
+    scheduler: str | None = None,
+    progress: Callable[[int, int], None] = lambda done, of: None,
+) -> xarray.Dataset:
+    """Solutions of contacts that are checked; arguments that say where and how it runs are those of `run_parts`."""
     import xarray
 
-    count = len(contacts.radius)
-    parts = [np.arange(start, min(start + BATCH, count)) for start in range(0, count, BATCH)]
-    with threadpool_limits(1):
-        rows = shared_out(lambda part: _rows(oil, contacts.take(part), thermal=thermal), parts)
-    columns: dict[str, Any] = {name: np.concatenate([row[name] for row in rows]) for name in rows[0]}
+    solver = partial(_rows, oil, thermal=thermal)
+    columns: dict[str, Any] = run_parts(solver, contacts, keep=keep, scheduler=scheduler, progress=progress)
     every = {**QUANTITIES, **CHECKS, **PROFILES}
     data = xarray.Dataset()
     for name, values in columns.items():
@@ -163,6 +167,20 @@ def solved(oil: Oil, contacts: Contacts, *, thermal: bool) -> xarray.Dataset:
         attributes = {"units": "1"} if known is None else {"units": known.unit, "long_name": known.meaning}
         data[name] = (dims, values, {} if name == "status" else attributes)
     return data
+
+
+@dataclass(frozen=True)
+class Way:
+    """Where and how contacts are solved: folder for parts, Dask scheduler, and a function that gets the progress."""
+
+    folder: Path | None = None
+    scheduler: str | None = None
+    progress: Callable[[int, int], None] = lambda done, of: None
+
+    def solved(self, oil: Oil, found: Contacts, *, thermal: bool) -> xarray.Dataset:
+        """Solutions of contacts."""
+        keep = None if self.folder is None else parts_folder(self.folder, oil, found, thermal=thermal)
+        return solved(oil, found, thermal=thermal, keep=keep, scheduler=self.scheduler, progress=self.progress)
 
 
 def _rows(oil: Oil, contacts: Contacts, *, thermal: bool) -> dict[str, np.ndarray]:

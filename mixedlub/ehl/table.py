@@ -9,6 +9,7 @@ import pandas as pd
 
 from mixedlub.ehl.file import Problem
 from mixedlub.ehl.measures import CHECKS, PROFILES, QUANTITIES
+from mixedlub.ehl.mixed import SHARES
 from mixedlub.laws.oil import ZERO_CELSIUS
 
 if TYPE_CHECKING:
@@ -42,7 +43,7 @@ def contact_table(problem: Problem, data: xarray.Dataset) -> pd.DataFrame:
         values = data[name].to_numpy()
         columns[_named(name, quantity.unit)] = _changed(values, quantity.unit)
         columns[f"{name}_error_percent"] = PERCENT * data[f"{name}_error"].to_numpy()
-    columns |= {name: data[name].to_numpy() for name in CHECKS}
+    columns |= {name: data[name].to_numpy() for name in (*CHECKS, *SHARES) if name in data}
     return pd.DataFrame(columns)
 
 

@@ -21,10 +21,10 @@ import numpy as np
 
 from mixedlub.chain.model import Model, Step
 from mixedlub.chain.ranges import beyond
+from mixedlub.cluster import on_cluster
 from mixedlub.laws.contact import asperity_load_ratio, mean_hertz_pressure
 from mixedlub.laws.loss import over_path
 from mixedlub.study.bands import HIGH, LOW, band
-from mixedlub.study.cluster import on_cluster
 from mixedlub.study.columns import loss_of
 from mixedlub.study.plan import Plan
 

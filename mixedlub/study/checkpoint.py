@@ -9,17 +9,14 @@ from __future__ import annotations
 import hashlib
 import itertools
 import json
-import os
-import shutil
 from collections.abc import Iterator, Sequence
-from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-import mixedlub
-import roughness
+from mixedlub.atomic import PARTS, whole
+from mixedlub.origin import code_fingerprint
 from mixedlub.study.batch import Block, Found
 from mixedlub.study.plan import Plan
 
@@ -29,7 +26,7 @@ if TYPE_CHECKING:
 
 def fingerprint(plan: Plan) -> str:
     """A hash of every number and every line of code the results depend on."""
-    return hashlib.sha256(f"{_code()}{input_fingerprint(plan)}".encode()).hexdigest()
+    return hashlib.sha256(f"{code_fingerprint()}{input_fingerprint(plan)}".encode()).hexdigest()
 
 
 def input_fingerprint(plan: Plan) -> str:
@@ -48,18 +45,9 @@ def input_fingerprint(plan: Plan) -> str:
     return digest.hexdigest()
 
 
-@cache
-def _code() -> str:
-    digest = hashlib.sha256(np.__version__.encode())
-    for package in (mixedlub, roughness):
-        for path in sorted(Path(package.__path__[0]).rglob("*.py")):
-            digest.update(path.read_bytes())
-    return digest.hexdigest()
-
-
 def parts_folder(out: Path, plan: Plan) -> Path:
     """Folder of the blocks of this study until it is complete."""
-    return out / f".parts-{fingerprint(plan)[:16]}"
+    return out / f"{PARTS}{fingerprint(plan)[:16]}"
 
 
 def kept(folder: Path, todo: list[Block]) -> Iterator[tuple[Block, Found]]:
@@ -88,14 +76,9 @@ def keep(folder: Path, block: Block, found: Found) -> None:
     import pyarrow.parquet as pq
 
     folder.mkdir(parents=True, exist_ok=True)
-    path = folder / block_name(block)
-    aside = path.with_suffix(f".{os.getpid()}")
     table = pa.table({name: floats(values) for name, values in found.items()})
-    try:
+    with whole(folder / block_name(block)) as aside:
         pq.write_table(table, aside, compression="none", use_dictionary=False)
-        aside.replace(path)
-    finally:
-        aside.unlink(missing_ok=True)
 
 
 def floats(values: np.ndarray) -> pa.Array:
@@ -115,12 +98,6 @@ def words(names: Sequence[str], index: np.ndarray) -> pa.Array:
     offsets = pa.py_buffer(np.concatenate([np.zeros(1, np.int32), ends]))
     data = pa.py_buffer(b"".join(map(encoded.__getitem__, index.tolist())))
     return pa.StringArray.from_buffers(ends.size, offsets, data)
-
-
-def clear(out: Path) -> None:
-    """Remove the blocks of finished and abandoned runs."""
-    for folder in out.glob(".parts-*"):
-        shutil.rmtree(folder, ignore_errors=True)
 
 
 def block_name(block: Block) -> str:

@@ -109,8 +109,9 @@ class Comparison:
 
 
 def complete(coefficients: Coefficients) -> tuple[FrictionLaw, ...]:
-    """The laws that have all their coefficients."""
-    return tuple(law for law in catalogue().values() if not _lacks(law, coefficients))
+    """The laws that have all their coefficients, with the range that these give."""
+    found = (law for law in catalogue().values() if not _lacks(law, coefficients))
+    return tuple(law.bounded(coefficients.get(law.name, {})) for law in found)
 
 
 def _lacks(law: FrictionLaw, coefficients: Coefficients) -> list[str]:
@@ -167,11 +168,14 @@ def _own(study: Study, coefficients: Coefficients) -> dict[str, Mapping[str, flo
 
 def checked(coefficients: Coefficients) -> dict[str, Mapping[str, float]]:
     """The coefficients by law; a law or coefficient that does not exist is refused."""
+    found: dict[str, Mapping[str, float]] = {}
     for name, given in coefficients.items():
         find(name, "--coefficients")
         where = f"--coefficients: {name}"
-        check_coefficients(parse(Options, {"friction": name, "friction_coefficients": given}, where), where)
-    return dict(coefficients)
+        options = parse(Options, {"friction": name, "friction_coefficients": given}, where)
+        check_coefficients(options, where)
+        found[name] = options.friction_coefficients
+    return found
 
 
 def of_mesh(study: Study, coefficients: Coefficients) -> Iterator[tuple[FrictionLaw, Results]]:

@@ -14,6 +14,18 @@ from mixedlub.study.schema import Options, StudyFile
 from profiles.errors import InputError, nearest
 
 PLACE = "options.friction_coefficients"
+MOST_NAMED = 4
+"""Most coefficients that a message names."""
+
+
+def few(names: Sequence[str]) -> str:
+    """Names in a message, the first ones of many.
+
+    >>> few(["a", "b"]), few(list("abcdef"))
+    ('a, b', 'a, b, c, d and 2 more')
+    """
+    others = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
+    return ", ".join(names[:MOST_NAMED]) + others
 
 
 def check_coefficients(options: Options, place: str = PLACE) -> None:
@@ -26,9 +38,7 @@ def check_coefficients(options: Options, place: str = PLACE) -> None:
             raise InputError(f"no such coefficient of {law.name}; {hint}", where=place, value=name)
     missing = [c.name for c in law.coefficients if c.default is None and c.name not in given]
     if missing:
-        rule = (
-            f"needs {', '.join(missing)}: no source prints them; `mixedlub friction-laws {law.name}` says what they are"
-        )
+        rule = f"needs {few(missing)}: no source prints them; `mixedlub friction-laws {law.name}` says what they are"
         raise InputError(rule, where=place, value=dict(given) or None)
     assumed = [f"{c.name} = {c.default:g}" for c in law.coefficients if c.name not in given]
     if assumed:

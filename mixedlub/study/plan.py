@@ -123,7 +123,9 @@ class Plan:
     @property
     def friction(self) -> FrictionLaw | None:
         """The friction law that takes the place of the base model's."""
-        return None if self.options.friction == friction.BASE else friction.find(self.options.friction)
+        if self.options.friction == friction.BASE:
+            return None
+        return friction.find(self.options.friction).bounded(self.options.friction_coefficients)
 
     @property
     def spur(self) -> bool:

@@ -10,6 +10,7 @@ import numpy as np
 from pydantic import BeforeValidator, Field, create_model, model_validator
 
 from mixedlub.friction import BASE, PLACES, catalogue
+from mixedlub.schema.friction_file import coefficients_of
 from mixedlub.schema.section import Number, NumberOrName, Section, Whole, check_keys_of, key, table, with_ranges
 from mixedlub.schema.surface_file import SurfaceSection
 from mixedlub.schema.system_file import Gears, RigFile
@@ -131,8 +132,9 @@ class Options(_Laws):
             "mean": "viscosity taken at the mean Hertz pressure",
         },
     )
-    friction_coefficients: dict[str, Number] = key(
-        "NAME = VALUE: coefficients of the friction law that are the user's, by the names of its page",
+    friction_coefficients: Annotated[dict[str, Number], BeforeValidator(coefficients_of)] = key(
+        "NAME = VALUE: coefficients of the friction law that are the user's, by the names of its page; or the file "
+        "that `mixedlub condense` wrote",
         {},
         example={},
     )

@@ -31,6 +31,26 @@ stiffening = -39.5e-3
 stiffening_per_K = 23.54e-5
 
 """
+TAIT = """[density]
+law = "tait"
+density_kg_m3 = 850.0
+temperature_C = 60.0
+expansion_per_K = 8e-4
+bulk_modulus_GPa = 1.2
+bulk_modulus_slope = 11.0
+bulk_modulus_fall_per_K = 6e-3
+
+"""
+DOOLITTLE = """[viscosity]
+law = "doolittle"
+temperature_C = 60.0
+viscosity_mPa_s = 14.89
+free_volume_factor = 4.5
+occupied_share = 0.65
+occupied_expansion_per_K = -7e-4
+
+"""
+DENSITY = TEXT[TEXT.index("[density]") : TEXT.index("[thermal]")]
 SHEARS = {
     "newton": 'law = "newton"',
     "growing_eyring": 'law = "growing_eyring"\neyring_stress_MPa = 5\neyring_growth = 0.035\n'
@@ -52,13 +72,40 @@ def written(folder, *changes):
 
 @pytest.mark.parametrize("viscosity", [ROELANDS, ROELANDS.replace('"roelands"', '"barus"'), MODULUS])
 def test_slopes_of_the_viscosity_are_those_of_small_changes(viscosity, tmp_path):
-    oil = read_oil(written(tmp_path, (ROELANDS, viscosity)))
+    check_slopes(read_oil(written(tmp_path, (ROELANDS, viscosity))).log_viscosity)
+
+
+def check_slopes(law):
+    """Slopes of a law of pressure and temperature against small changes."""
     p, t = 0.7e9, 350.0
-    _, by_p, by_t = oil.log_viscosity(np.array(p), np.array(t))
-    more, less = (oil.log_viscosity(p * (1 + s), t)[0] for s in (1e-5, -1e-5))
-    warm, cold = (oil.log_viscosity(p, t + s)[0] for s in (1e-3, -1e-3))
+    _, by_p, by_t = law(np.array(p), np.array(t))
+    more, less = (law(p * (1 + s), t)[0] for s in (1e-5, -1e-5))
+    warm, cold = (law(p, t + s)[0] for s in (1e-3, -1e-3))
     assert by_p == pytest.approx((more - less) / (2e-5 * p), rel=1e-6)
     assert by_t == pytest.approx((warm - cold) / 2e-3, rel=1e-5)
+
+
+def test_free_volume_has_its_limits_and_slopes(tmp_path):
+    oil = read_oil(written(tmp_path, (ROELANDS, DOOLITTLE), (DENSITY, TAIT)))
+    check_slopes(oil.log_viscosity)
+    check_slopes(oil.density_ratio)
+    viscosity, coefficient = oil.at_ambient(np.array(333.15))
+    assert viscosity == pytest.approx(0.01489, rel=1e-12)
+    # a film that loses 1/K of its volume a Pa: B R0/(1 - R0)^2/K
+    assert coefficient == pytest.approx(4.5 * 0.65 / 0.35**2 / 1.2e9, rel=1e-12)
+    assert oil.density_ratio(np.array(0.0), np.array(343.15))[0] == pytest.approx(1.0 / 1.008, rel=1e-12)
+    far = oil.log_viscosity(np.array([1e9, 1e11]), np.array(280.0))[0]
+    assert np.isfinite(far).all()
+
+
+def test_contacts_of_a_free_volume_oil_are_solved(tmp_path):
+    oil = read_oil(written(tmp_path, (ROELANDS, DOOLITTLE), (DENSITY, TAIT)))
+    contact = {"radius": 8.69e-3, "line_load": 1e5, "speed": 2.24, "sliding_speed": 0.224, "oil_temperature": 333.15}
+    found, other = solve(oil, **contact), solve(example_oil(), **contact)
+    assert found.status[0] == "converged"
+    # the film grows with the pressure-viscosity coefficient to the power 0.56
+    ratio = oil.at_ambient(np.array(333.15))[1] / 14.81e-9
+    assert float(found.flow_film[0] / other.flow_film[0]) == pytest.approx(ratio**0.56, rel=0.1)
 
 
 @pytest.mark.parametrize("name", oil_names())
@@ -150,3 +197,18 @@ def test_a_file_that_is_wrong_is_refused(old, new, said, tmp_path):
         read_oil(written(tmp_path, (old, new)))
     assert said in str(error.value)
     assert "oil.toml" in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        (((ROELANDS, DOOLITTLE),), 'needs density.law = "tait"'),
+        (((ROELANDS, DOOLITTLE), (DENSITY, TAIT.replace("60.0", "40.0"))), "one temperature"),
+        (((ROELANDS, DOOLITTLE.replace("0.65", "1.1")), (DENSITY, TAIT)), "must be below 1"),
+        (((DENSITY, TAIT.replace("bulk_modulus_slope = 11.0\n", "")),), "needs bulk_modulus_slope"),
+    ],
+)
+def test_free_volume_without_what_it_needs_is_refused(changes, said, tmp_path):
+    with pytest.raises(InputError) as error:
+        read_oil(written(tmp_path, *changes))
+    assert said in str(error.value)

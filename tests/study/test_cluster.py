@@ -12,8 +12,8 @@ import time
 import pytest
 
 from mixedlub.cli import main
+from mixedlub.cluster import on_cluster
 from mixedlub.study import batch, read_study, run_study
-from mixedlub.study.cluster import on_cluster
 from profiles.errors import InputError, RunError
 
 distributed = pytest.importorskip("distributed")

@@ -1,7 +1,7 @@
 """What the study command says of earlier results, and what its page repeats of the notes on traces."""
 
 from mixedlub.cli import main
-from mixedlub.commands.study import _resumed
+from mixedlub.commands.study import resumed
 
 
 def run(file, out, *options):
@@ -46,10 +46,10 @@ def test_the_page_says_what_is_doubtful_about_the_heights_of_a_trace(write_study
 
 def test_a_resumed_study_says_how_much_was_there(capsys):
     seen = []
-    progress = _resumed(lambda done, of: seen.append((done, of)))
+    progress = resumed(lambda done, of: seen.append((done, of)))
     progress(3, 8)
     progress(4, 8)
     assert capsys.readouterr().out == "3 of 8 blocks are there from an earlier run\n"
     assert seen == [(3, 8), (4, 8)]
-    _resumed(lambda done, of: None)(0, 8)
+    resumed(lambda done, of: None)(0, 8)
     assert capsys.readouterr().out == ""

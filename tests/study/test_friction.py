@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from mixedlub.chain.friction_law import FrictionLaw
-from mixedlub.friction import BASE, catalogue
+from mixedlub.friction import BASE, catalogue, condensed
 from mixedlub.schema.toml_file import to_toml
 from mixedlub.study import read_study, run_study
 from mixedlub.study.record import resolved
@@ -26,6 +26,11 @@ GIVEN: Mapping[str, Mapping[str, float]] = {
     "matsumoto": {"film_friction": 0.0093, "rz_sum_um": 3.0},
     "iso_tr_14179_1": {"divisor": 5.0, "viscosity_exponent": -0.2, "load_exponent": -0.3, "speed_exponent": 0.5},
     "loepenhaus": {"c1": 0.1, "c2": -0.1, "c3": 0, "c4": 0, "c5": 0, "c6": 1, "c7": 0.2, "c8": 0.1, "c9": 0.01},
+    "condensed": {
+        **{c.name: 0.0 for c in condensed.COEFFICIENTS},
+        **{end: value for one in condensed.INPUTS for end, value in zip(one.ends, (1e-6, 1e6), strict=True)},
+        "c_0": -3.5,
+    },
 }
 """Coefficients that a user would give."""
 LAWS = [law for law in catalogue().values() if law.name != BASE]

@@ -27,6 +27,57 @@ def dowson_higginson(
     return squeezed * warm, COMPRESSION / stiff**2 * warm, -expansion * squeezed
 
 
+def tait(
+    pressure: np.ndarray,
+    temperature: np.ndarray,
+    known_temperature: float,
+    expansion: float,
+    bulk_modulus: float,
+    bulk_modulus_slope: float,
+    bulk_modulus_fall: float,
+) -> Slopes:
+    """Relative density by Tait's equation of state: the inverse of `tait_volume`. Source: as there.
+
+    >>> round(float(tait(1e9, 313.15, 313.15, 8e-4, 1.2e9, 11.0, 6e-3)[0]), 4)
+    1.2497
+    """
+    volume, by_p, by_t = tait_volume(
+        pressure, temperature, known_temperature, expansion, bulk_modulus, bulk_modulus_slope, bulk_modulus_fall
+    )
+    return 1.0 / volume, -by_p / volume**2, -by_t / volume**2
+
+
+def tait_volume(
+    pressure: np.ndarray,
+    temperature: np.ndarray,
+    known_temperature: float,
+    expansion: float,
+    bulk_modulus: float,
+    bulk_modulus_slope: float,
+    bulk_modulus_fall: float,
+) -> Slopes:
+    r"""Volume over that at ambient pressure and the known temperature, with slopes per Pa and per K.
+
+    .. math:: \frac{V}{V_0} = [1 + a(T - T_0)]
+              \left\{1 - \frac{1}{1 + K'}\ln\left[1 + \frac{p\,(1 + K')}{K(T)}\right]\right\},\quad
+              K(T) = K_0\,e^{-\beta_K (T - T_0)}
+
+    with thermal expansion a, bulk modulus K_0 at the known temperature, its slope in pressure K' and its relative fall
+    per kelvin. Source: the equation of Tait as in S. Bair, High-Pressure Rheology for Quantitative Elastohydrodynamics
+    (2007).
+
+    >>> volume, by_p, _ = tait_volume(0.0, 313.15, 313.15, 8e-4, 1.2e9, 11.0, 6e-3)
+    >>> float(volume), round(float(-1.0 / by_p) / 1e9, 3)   # the bulk modulus
+    (1.0, 1.2)
+    """
+    whole = 1.0 + bulk_modulus_slope
+    modulus = bulk_modulus * np.exp(-bulk_modulus_fall * (temperature - known_temperature))
+    warm = 1.0 + expansion * (temperature - known_temperature)
+    squeezed = 1.0 - np.log1p(whole * pressure / modulus) / whole
+    by_p = -warm / (modulus + whole * pressure)
+    return warm * squeezed, by_p, expansion * squeezed + by_p * bulk_modulus_fall * pressure
+
+
 def incompressible(pressure: np.ndarray, temperature: np.ndarray) -> Slopes:
     """Relative density of an incompressible oil: one. Source: definition.
 

@@ -46,13 +46,14 @@ class LawSection(Section):
 
 
 class Viscosity(LawSection):
-    law: Literal["roelands", "barus", "modulus"] = key(
+    law: Literal["roelands", "barus", "modulus", "doolittle"] = key(
         "how the viscosity rises with pressure and falls with temperature",
         "roelands",
         values={
             "roelands": "Roelands in Houpert's form",
             "barus": "exponential; for films only, far too high in the contact above 0.3 GPa",
             "modulus": "exp[p/(A + Bp)] of Bode, over ASTM D341",
+            "doolittle": "free volume of Doolittle, with the volume of the density law tait",
         },
     )
     temperature_C: Number | None = key("temperature of the values below", None, example=60.0, gt=-ZERO_CELSIUS)
@@ -65,13 +66,19 @@ class Viscosity(LawSection):
     modulus_per_kelvin_MPa: Number | None = key("a2 of A = a1 + a2 T (MPa/K)", None, alternative=True)
     stiffening: Number | None = key("b1 of B = b1 + b2 T, T in K", None, alternative=True)
     stiffening_per_K: Number | None = key("b2 of B = b1 + b2 T", None, alternative=True)
+    free_volume_factor: Number | None = key("Doolittle's factor B", None, alternative=True, gt=0.0)
+    occupied_share: Number | None = key(
+        "occupied volume over the volume, where the viscosity is that given", None, alternative=True, gt=0.0, lt=1.0
+    )
+    occupied_expansion_per_K: Number | None = key("thermal expansion of the occupied volume", None, alternative=True)
 
     @classmethod
     def takes(cls) -> Mapping[str, tuple[str, ...]]:
         at_one = ("temperature_C", "viscosity_mPa_s", "pressure_viscosity_per_GPa", "temperature_viscosity_per_K")
         walther = ("known_temperature_C", "kinematic_viscosity_mm2_s")
+        free = ("temperature_C", "viscosity_mPa_s", "free_volume_factor", "occupied_share", "occupied_expansion_per_K")
         moduli = ("modulus_GPa", "modulus_per_kelvin_MPa", "stiffening", "stiffening_per_K")
-        return {"roelands": at_one, "barus": at_one, "modulus": (*walther, *moduli)}
+        return {"roelands": at_one, "barus": at_one, "modulus": (*walther, *moduli), "doolittle": free}
 
 
 class Shear(LawSection):
@@ -116,21 +123,30 @@ class Shear(LawSection):
 
 
 class Density(LawSection):
-    law: Literal["dowson_higginson", "incompressible"] = key(
+    law: Literal["dowson_higginson", "tait", "incompressible"] = key(
         "how the density rises with pressure",
         "dowson_higginson",
         values={
             "dowson_higginson": "Dowson and Higginson, with thermal expansion",
+            "tait": "equation of state of Tait",
             "incompressible": "not at all, and no thermal expansion",
         },
     )
     density_kg_m3: Number = key("density at ambient pressure and temperature_C", example=850.0, gt=0.0)
     temperature_C: Number = key("temperature of that density", 60.0, gt=-ZERO_CELSIUS)
     expansion_per_K: Number = key("thermal expansion", 0.0, example=6.5e-4, ge=0.0, lt=0.01)
+    bulk_modulus_GPa: Number | None = key("bulk modulus at temperature_C", None, alternative=True, gt=0.0)
+    bulk_modulus_slope: Number | None = key("its slope in pressure", None, alternative=True, gt=0.0)
+    bulk_modulus_fall_per_K: Number | None = key("its relative fall per kelvin", None, alternative=True, ge=0.0)
 
     @classmethod
     def takes(cls) -> Mapping[str, tuple[str, ...]]:
-        return {"dowson_higginson": ("expansion_per_K",), "incompressible": ()}
+        of_state = ("bulk_modulus_GPa", "bulk_modulus_slope", "bulk_modulus_fall_per_K")
+        return {
+            "dowson_higginson": ("expansion_per_K",),
+            "tait": ("expansion_per_K", *of_state),
+            "incompressible": (),
+        }
 
 
 class Thermal(Section):
@@ -154,6 +170,17 @@ class OilFile(Section):
     density: Density = key("density against pressure and temperature")
     thermal: Thermal = key("heat in the film")
     range: Range | None = key("where the numbers hold; conditions beyond it are refused", None)
+
+    @model_validator(mode="after")
+    def _one_volume(self) -> OilFile:
+        if self.viscosity.law == "doolittle":
+            if self.density.law != "tait":
+                raise ValueError('viscosity.law = "doolittle" needs density.law = "tait", whose volume it reads')
+            if self.viscosity.temperature_C != self.density.temperature_C:
+                raise ValueError(
+                    "viscosity.temperature_C and density.temperature_C: one temperature with Doolittle's law"
+                )
+        return self
 
 
 def read_oil(path: str | PathLike[str]) -> Oil:
@@ -186,13 +213,11 @@ def build(file: OilFile) -> Oil:
         limits["temperatures"] = (low + ZERO_CELSIUS, high + ZERO_CELSIUS)
         limits["largest_pressure"] = file.range.largest_pressure_GPa * GIGA
     own = file.density
-    known = own.temperature_C + ZERO_CELSIUS
-    compressible = partial(density.dowson_higginson, known_temperature=known, expansion=own.expansion_per_K)
     law, scale, limit = _shear(file.shear)
     return Oil(
         name=file.name,
-        log_viscosity=_viscosity(file.viscosity, own.density_kg_m3),
-        density_ratio=compressible if own.law == "dowson_higginson" else density.incompressible,
+        log_viscosity=_viscosity(file.viscosity, own),
+        density_ratio=_density(own),
         shear=law,
         stress_scale=scale,
         stress_limit=limit,
@@ -205,14 +230,46 @@ def build(file: OilFile) -> Oil:
     )
 
 
-def _viscosity(section: Viscosity, oil_density: float) -> Any:
+def _density(section: Density) -> Any:
+    """Density over that at ambient pressure and the known temperature."""
+    known: dict[str, Any] = {
+        "known_temperature": section.temperature_C + ZERO_CELSIUS,
+        "expansion": section.expansion_per_K,
+    }
+    if section.law == "tait":
+        return partial(density.tait, **known, **_bulk_modulus(section))
+    return partial(density.dowson_higginson, **known) if section.law == "dowson_higginson" else density.incompressible
+
+
+def _bulk_modulus(section: Density) -> dict[str, Any]:
+    return {
+        "bulk_modulus": _of(section.bulk_modulus_GPa) * GIGA,
+        "bulk_modulus_slope": _of(section.bulk_modulus_slope),
+        "bulk_modulus_fall": _of(section.bulk_modulus_fall_per_K),
+    }
+
+
+def _viscosity(section: Viscosity, of: Density) -> Any:
+    if section.law == "doolittle":
+        known = of.temperature_C + ZERO_CELSIUS
+        return partial(
+            viscosity.doolittle,
+            known_temperature=known,
+            viscosity=_of(section.viscosity_mPa_s) * MILLI,
+            free_volume_factor=_of(section.free_volume_factor),
+            occupied_share=_of(section.occupied_share),
+            occupied_expansion=_of(section.occupied_expansion_per_K),
+            volume=partial(
+                density.tait_volume, known_temperature=known, expansion=of.expansion_per_K, **_bulk_modulus(of)
+            ),
+        )
     if section.law == "modulus":
         (t1, t2), (nu1, nu2) = section.known_temperature_C or (0, 0), section.kinematic_viscosity_mm2_s or (0, 0)
         return partial(
             viscosity.modulus,
             known_temperature=(t1 + ZERO_CELSIUS, t2 + ZERO_CELSIUS),
             known_viscosity=(nu1 * MICRO, nu2 * MICRO),
-            density=oil_density,
+            density=of.density_kg_m3,
             modulus=(_of(section.modulus_GPa) * GIGA, _of(section.modulus_per_kelvin_MPa) * MEGA),
             stiffening=(_of(section.stiffening), _of(section.stiffening_per_K)),
         )

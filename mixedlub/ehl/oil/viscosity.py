@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from mixedlub.ehl.oil.oil import Slopes
 from mixedlub.laws import oil
-from mixedlub.laws.oil import ROELANDS_LOG, ROELANDS_PRESSURE
+from mixedlub.laws.oil import LARGEST_LOG, ROELANDS_LOG, ROELANDS_PRESSURE
 
 ROELANDS_KELVIN = 138.0
 """Temperature of Roelands' law (K)."""
@@ -94,4 +96,40 @@ def modulus(
         np.log(density * nu) + oil.modulus_rise(base, stiff, pressure),
         base / whole**2,
         -fall - pressure * (modulus[1] + stiff_by_t * pressure) / whole**2,
+    )
+
+
+def doolittle(
+    pressure: np.ndarray,
+    temperature: np.ndarray,
+    known_temperature: float,
+    viscosity: float,
+    free_volume_factor: float,
+    occupied_share: float,
+    occupied_expansion: float,
+    volume: Callable[[np.ndarray, np.ndarray], Slopes],
+) -> Slopes:
+    r"""Logarithm of the viscosity (Pa s) by the free volume of Doolittle, with slopes per Pa and per K.
+
+    .. math:: \ln\frac{\eta}{\eta_0} = B R_0\left[\frac{w}{V/V_0 - R_0 w} - \frac{1}{1 - R_0}\right],\quad
+              w = 1 + \varepsilon(T - T_0)
+
+    with the volume V of the oil over that at ambient pressure and the known temperature, where the viscosity is eta_0
+    and the occupied volume the share R_0. The rise is at most exp(500). Source: S. Bair, High-Pressure Rheology for
+    Quantitative Elastohydrodynamics (2007), after A. K. Doolittle, J. Appl. Phys. 22 (1951) 1471.
+
+    >>> half = lambda p, t: (np.array(0.8), np.array(-1e-10), np.array(0.0))
+    >>> log = doolittle(1e9, 313.15, 313.15, 0.02, 4.0, 0.6, 0.0, half)[0]
+    >>> round(float(log - np.log(0.02)), 6)   # 4 x 0.6 x (1/0.2 - 1/0.4)
+    6.0
+    """
+    filled, by_p, by_t = volume(pressure, temperature)
+    occupied = 1.0 + occupied_expansion * (temperature - known_temperature)
+    scale = free_volume_factor * occupied_share
+    free = np.maximum(filled - occupied_share * occupied, scale * occupied / LARGEST_LOG)
+    by_free = -scale * occupied / free**2
+    return (
+        np.log(viscosity) + scale * (occupied / free - 1.0 / (1.0 - occupied_share)),
+        by_free * by_p,
+        scale * occupied_expansion / free + by_free * (by_t - occupied_share * occupied_expansion),
     )

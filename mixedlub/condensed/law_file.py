@@ -1,0 +1,54 @@
+"""The file of a condensed law, and where it parts from the published one."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pandas as pd
+
+from mixedlub.condensed.regression import Regression
+from mixedlub.friction.condensed import INPUTS, condensed
+from mixedlub.friction.xu_kahraman import xu_kahraman
+from mixedlub.schema.friction_file import SCHEMA
+
+LEVELS = 5
+"""Levels of pressure, sliding, speed and viscosity at which both laws are compared."""
+SMOOTH = 0.0
+"""Composite roughness in the published law (m): the solutions are of smooth surfaces."""
+
+
+def law_file(oil: str, found: Regression) -> str:
+    """The text of the file that a study names as its `friction_coefficients`."""
+    lines = [
+        f"# Friction of full thermal solutions for {oil}.",
+        "# Smooth surfaces of steel. Written by `mixedlub condense`.",
+        '# In a study: [options] friction = "condensed" and friction_coefficients = "THIS FILE".',
+        f'schema = "{SCHEMA}"',
+        'law = "condensed"',
+        f"oil = {json.dumps(oil, ensure_ascii=False)}",
+        "",
+        "[fit]",
+        *(f"{name} = {_number(value)}" for name, value in found.fit.items()),
+        "",
+        "[coefficients]",
+        *(f"{name} = {_number(value)}" for name, value in found.coefficients.items()),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _number(value: float) -> str:
+    return str(value) if isinstance(value, int) else f"{value:.9g}"
+
+
+def against_published(found: Regression) -> pd.DataFrame:
+    """Friction by the condensed law and by Xu and Kahraman's over the range of the solutions, at the middle radius."""
+    ends = [[found.coefficients[end] for end in one.ends] for one in INPUTS]
+    axes = [np.geomspace(low, high, LEVELS) for low, high in ends[:-1]]
+    radius = np.sqrt(np.prod(ends[-1]))
+    grid = [axis.ravel() for axis in np.meshgrid(*axes, [radius], indexing="ij")]
+    values = [one.factor * axis for one, axis in zip(INPUTS, grid, strict=True)]
+    own = condensed(*values, **found.coefficients)
+    published = xu_kahraman(*values, np.full_like(own, SMOOTH))
+    table = pd.DataFrame(dict(zip([one.column for one in INPUTS], grid, strict=True)))
+    return table.assign(condensed_friction=own, published_friction=published, published_over_condensed=published / own)

@@ -1,0 +1,99 @@
+"""The regression: coefficients from four solutions in five, and their error on the fifth."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from mixedlub.ehl.solve import CONVERGED
+from mixedlub.friction.condensed import INPUTS, TERMS, coefficient_name, columns, condensed
+from profiles.errors import RunError
+
+EVERY = 5
+"""Solutions of which one is left out of the fit."""
+LEAST = 2 * EVERY * len(TERMS) // (EVERY - 1)
+"""Solutions that are needed: two for each term."""
+
+
+@dataclass(frozen=True)
+class Regression:
+    """Coefficients of the law with their standard errors, the solutions with fit and residual, and the errors."""
+
+    coefficients: Mapping[str, float]
+    standard_errors: Mapping[str, float]
+    table: pd.DataFrame
+    fit: Mapping[str, float]
+
+    @property
+    def terms(self) -> pd.DataFrame:
+        """A row a term: coefficient, standard error and their ratio."""
+        names = [coefficient_name(term) for term in TERMS]
+        values, errors = ([of[name] for name in names] for of in (self.coefficients, self.standard_errors))
+        rows = {"term": [" ".join(term) or "1" for term in TERMS], "coefficient": names, "value": values}
+        return pd.DataFrame({**rows, "standard_error": errors, "t": np.array(values) / np.array(errors)})
+
+
+def regression(solutions: pd.DataFrame) -> Regression:
+    """The law fitted to the logarithm of friction by least squares."""
+    table = solutions[solutions["status"] == CONVERGED].reset_index(drop=True)
+    if len(table) < LEAST:
+        raise RunError(f"{len(table)} contacts have a solution; the regression needs {LEAST}: ask for more solutions")
+    values = {one.name: table[one.column].to_numpy() for one in INPUTS}
+    limits = {
+        end: float(value)
+        for one in INPUTS
+        for end, value in zip(one.ends, (values[one.name].min(), values[one.name].max()), strict=True)
+    }
+    terms = columns({one.letter: np.log(values[one.name] / one.middle) for one in INPUTS})
+    design = np.column_stack(np.broadcast_arrays(*terms))
+    wanted = np.log(table["friction"].to_numpy())
+    out = np.arange(len(table)) % EVERY == EVERY - 1
+    found, errors = _least_squares(design[~out], wanted[~out])
+    names = [coefficient_name(term) for term in TERMS]
+    coefficients = dict(zip(names, map(float, found), strict=True)) | limits
+    table["fitted"] = condensed(*(values[one.name] * one.factor for one in INPUTS), **coefficients)
+    table["residual_of_log"] = wanted - np.log(table["fitted"].to_numpy())
+    table["left_out"] = out
+    fit = _errors(table, solutions) | {"rms_of_log_of_published_terms": _published(values, wanted, out)}
+    return Regression(coefficients, dict(zip(names, map(float, errors), strict=True)), table, fit)
+
+
+def _least_squares(design: np.ndarray, wanted: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Coefficients and their standard errors."""
+    found = np.linalg.lstsq(design, wanted, rcond=None)[0]
+    variance = np.sum((wanted - design @ found) ** 2) / (len(wanted) - len(found))
+    return found, np.sqrt(variance * np.diag(np.linalg.inv(design.T @ design)))
+
+
+def _errors(table: pd.DataFrame, solutions: pd.DataFrame) -> dict[str, float]:
+    """How well the law has the solutions, on those that it was fitted to and on those left out."""
+    left, out = table["residual_of_log"], table["left_out"]
+    backwards = table["sliding"] == "first faster"
+    away = table["friction"] - table["fitted"]
+    rms = {
+        "rms_of_log": left[~out],
+        "left_out_rms_of_log": left[out],
+        "left_out_rms_of_friction": away[out],
+        "first_faster_rms_of_log": left[backwards],
+        "second_faster_rms_of_log": left[~backwards],
+    }
+    return {
+        "solutions": len(table),
+        "without_solution": len(solutions) - len(table),
+        "left_out": int(out.sum()),
+        **{name: float(np.sqrt(np.mean(values**2))) for name, values in rms.items()},
+        "left_out_95_percent_of_log": float(left[out].abs().quantile(0.95)),
+        "difference_of_ways_of_log": float(left[~backwards].mean() - left[backwards].mean()),
+    }
+
+
+def _published(values: Mapping[str, np.ndarray], wanted: np.ndarray, out: np.ndarray) -> float:
+    """Rms of what the terms of Xu and Kahraman leave of the same solutions, of those left out."""
+    p, s, u, v, r = (values[one.name] for one in INPUTS)
+    x = s * p * np.log10(v)
+    design = np.column_stack([np.ones_like(p), *(np.log(each) for each in (p, s, u, v, r)), x, np.exp(-x)])
+    found = np.linalg.lstsq(design[~out], wanted[~out], rcond=None)[0]
+    return float(np.sqrt(np.mean((wanted[out] - design[out] @ found) ** 2)))

@@ -1,0 +1,208 @@
+"""The laws that are compared, each with the result of the full solution that it approximates."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from mixedlub.chain.ranges import beyond
+from mixedlub.effects.film_heating import film_heating
+from mixedlub.effects.inlet_shear_heating import inlet_shear_heating
+from mixedlub.effects.rolling_resistance import rolling_resistance
+from mixedlub.ehl.line_contacts import Contacts
+from mixedlub.ehl.oil.oil import Oil
+from mixedlub.friction import BASE, FrictionLaw, catalogue
+from mixedlub.laws import film, heating, mixture, oil, shear
+from mixedlub.slots import FILM, FILM_FRICTION, SHEAR, VISCOSITY, Choice
+
+State = dict[str, Any]
+ROUGHNESS = 0.07e-6
+"""Composite roughness (m) for friction laws that read one: superfinished, the smoothest that they were made for."""
+LEAST_RISE = 5.0
+"""Rise of the walls (K) above which it is that of sliding: compression and rolling warm them by a few kelvin too."""
+MINIMUM = "minimum"
+"""Word in the name of a film law that gives the minimum film."""
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A law: the column of the solution that it is compared with, and its value in the unit of that column."""
+
+    name: str
+    against: str
+    value: Callable[[State, Mapping[str, np.ndarray]], np.ndarray]
+    meaning: str
+
+
+def state_of(of: Oil, found: Contacts) -> State:
+    """Quantities of the glossary that laws of smooth contacts read; bodies are of steel at the oil's temperature."""
+    temperature, pressure = found.oil_temperature, found.pressure
+    viscosity, coefficient = of.at_ambient(temperature)
+    none = np.zeros_like(temperature)
+    density = of.density * of.density_ratio(none, temperature)[0]
+    state: State = {
+        "radius": found.radius,
+        "line_load": found.line_load,
+        "entrainment_speed": found.speed,
+        "sliding_speed": np.abs(found.sliding),
+        "slide_roll_ratio": np.abs(found.sliding) / found.speed,
+        "reduced_modulus": found.modulus,
+        "hertz_pressure": pressure,
+        "hertz_half_width": found.half_width,
+        "oil_temperature": temperature,
+        "viscosity": viscosity,
+        "pressure_viscosity": coefficient,
+        "temperature_viscosity": -of.log_viscosity(none, temperature)[2],
+        "oil_density": density,
+        "kinematic_viscosity": oil.kinematic(viscosity, density),
+        "oil_conductivity": np.full_like(none, of.conductivity),
+        "eyring_stress": of.stress_scale(pressure),
+        "solid_conductivity": found.first.conductivity,
+        "solid_density": found.first.density,
+        "solid_heat_capacity": found.first.heat_capacity,
+        "composite_roughness": np.full_like(none, ROUGHNESS),
+        "boundary_friction": none,
+        "area_ratio": none,
+        "own_viscosity": np.exp(of.log_viscosity(pressure, temperature)[0]),
+    }
+    chain: tuple[tuple[str, Callable[..., Any]], ...] = (
+        ("moes_load", film.moes_load),
+        ("film_thickness", film.dowson_toyoda),
+        ("flash_per_friction", heating.flash_per_friction),
+        *_SHEARED,
+    )
+    for name, law in chain:
+        state[name] = called(law, state)
+    return state
+
+
+def called(law: Callable[..., Any], state: State, **parameters: float) -> np.ndarray:
+    """A law at a state."""
+    needed = [name for name in inspect.signature(law).parameters if name not in parameters]
+    return np.asarray(law(*(state[name] for name in needed), **parameters))
+
+
+def compared() -> Iterator[Compared]:
+    """All laws: of the film, of heat, and of friction."""
+    yield from _films()
+    yield from _heat()
+    yield from _frictions()
+
+
+def _films() -> Iterator[Compared]:
+    for choice in FILM.choices.values():
+        kind = "minimum" if MINIMUM in choice.name else "central"
+
+        def thick(state: State, _: Mapping[str, np.ndarray], of: Choice = choice) -> np.ndarray:
+            return np.where(beyond(state, of.valid), np.nan, 1e9 * called(of.law, state))
+
+        yield Compared(choice.name, f"isothermal_{kind}_film_nm", thick, choice.meaning)
+    yield Compared("moes_line", "isothermal_flow_film_nm", _moes, "film of the flow of an incompressible oil by Moes")
+
+
+def _moes(state: State, _: Mapping[str, np.ndarray]) -> np.ndarray:
+    twice = 2.0 * state["viscosity"] * state["entrainment_speed"] / (state["reduced_modulus"] * state["radius"])
+    material = state["pressure_viscosity"] * state["reduced_modulus"] * twice**0.25
+    return np.asarray(1e9 * state["radius"] * np.sqrt(twice) * film.moes_line(state["moes_load"], material))
+
+
+def _heat() -> Iterator[Compared]:
+    for name, sliding in (("inlet_shear_heating (Gupta)", 1.0), ("inlet_shear_heating (Murch and Wilson)", 0.0)):
+
+        def heated(state: State, solved: Mapping[str, np.ndarray], weight: float = sliding) -> np.ndarray:
+            own = {**state, "film_thickness": solved["isothermal_central_film_nm"]}
+            gupta = {"strength": 1.0, "loading_power": 0.64, "pressure_power": 0.0}
+            return called(inlet_shear_heating, own, sliding=weight, **gupta)
+
+        yield Compared(name, "thermal_central_film_nm", heated, "on the isothermal film of the solution")
+
+    def flash(state: State, solved: Mapping[str, np.ndarray]) -> np.ndarray:
+        rise = heating.largest_flash_temperature(state["flash_per_friction"], solved["thermal_friction"])
+        return np.where(solved["thermal_wall_rise_K"] >= LEAST_RISE, rise, np.nan)
+
+    yield Compared("largest_flash_temperature", "thermal_wall_rise_K", flash, "with the friction of the solution")
+    for name, exponent in (("Biboulet and Houpert", 0.75), ("Goksem and Hargreaves", 0.658)):
+
+        def rolling(state: State, _: Mapping[str, np.ndarray], power: float = exponent) -> np.ndarray:
+            force = called(rolling_resistance, {**state, "rolling_force": 0.0}, strength=1.0, exponent=power)
+            return np.asarray(2.0 * state["entrainment_speed"] * force)
+
+        yield Compared(f"rolling_resistance ({name})", "isothermal_rolling_W_m", rolling, "power of rolling")
+
+
+def _readings() -> Iterator[Compared]:
+    """The base model without heat, and with one of its options changed at a time."""
+    meaning = "Dowson and Toyoda, Roelands and Ree-Eyring at the largest pressure, against an isothermal solution"
+    yield Compared("base model, isothermal", "isothermal_friction", lambda state, _: state["fluid_friction"], meaning)
+    changed = [
+        (f"{slot.option} = {choice.name}", {slot.quantity: choice.law}, choice.meaning)
+        for slot in (VISCOSITY, SHEAR, FILM_FRICTION)
+        for choice in slot.choices.values()
+        if choice.name not in (slot.default, OWN_CONSTANTS)
+    ]
+    changed.append(("viscosity law of the oil", {"contact_viscosity": _own_viscosity}, "that of the full solution"))
+    for name, laws, about in changed:
+        yield Compared(name, "isothermal_friction", partial(_friction, laws=laws, pressure=1.0), about)
+    at_mean = partial(_friction, laws={}, pressure=MEAN)
+    yield Compared("viscosity_pressure = mean", "isothermal_friction", at_mean, "viscosity at the mean Hertz pressure")
+    both = partial(_friction, laws={"fluid_friction": mixture.fluid_friction_at_mean_pressure}, pressure=MEAN)
+    yield Compared("both pressures = mean", "isothermal_friction", both, "viscosity and stress at the mean pressure")
+
+
+def _friction(
+    state: State, _: Mapping[str, np.ndarray], *, laws: Mapping[str, Callable[..., Any]], pressure: float
+) -> np.ndarray:
+    """Isothermal friction with some laws changed, and the viscosity at a share of the largest Hertz pressure."""
+    own = dict(state)
+    for name, law in _SHEARED:
+        at = {"hertz_pressure": pressure * state["hertz_pressure"]} if name == "contact_viscosity" else {}
+        own[name] = called(laws.get(name, law), {**own, **at})
+    return np.asarray(own["fluid_friction"])
+
+
+def _own_viscosity(own_viscosity: np.ndarray) -> np.ndarray:
+    return own_viscosity
+
+
+_SHEARED: tuple[tuple[str, Callable[..., Any]], ...] = (
+    ("contact_viscosity", oil.roelands_viscosity),
+    ("shear_stress", shear.ree_eyring),
+    ("fluid_friction", mixture.fluid_friction),
+)
+OWN_CONSTANTS = "modulus"
+"""A viscosity law whose constants few oils have; where they do, it is the oil's own."""
+MEAN = 0.25 * np.pi
+"""Mean over largest Hertz pressure of a line contact."""
+
+
+def _frictions() -> Iterator[Compared]:
+    yield from _readings()
+    yield Compared(
+        "base model and film_heating",
+        "thermal_friction",
+        lambda state, _: _heated_friction(state),
+        "the same with heat, against a thermal solution",
+    )
+    for law in catalogue().values():
+        if law.place == "contact" and all(c.default is not None for c in law.coefficients):
+            name = "base model" if law.name == BASE else law.name
+            yield Compared(name, "thermal_friction", partial(_inside, law), law.title)
+
+
+def _inside(law: FrictionLaw, state: State, _: Mapping[str, np.ndarray]) -> np.ndarray:
+    """A friction law inside the range of its source."""
+    if not state.keys() >= set(law.reads):
+        return np.full_like(state["radius"], np.nan)
+    friction = called(law.with_coefficients({}), state)
+    outside = law.outside({**state, "friction": friction}) | law.divergent(state)
+    return np.where(outside, np.nan, friction)
+
+
+def _heated_friction(state: State) -> np.ndarray:
+    stress = called(film_heating, state, strength=1.0, flash=0.5, pressure=1.0)
+    return mixture.fluid_friction(stress, state["hertz_pressure"])

@@ -1,0 +1,107 @@
+"""Maps of how far laws of line contacts are from full solutions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.colors import LogNorm
+
+from mixedlub.law_errors.ratios import FILM_RATIOS, TRACTION_RATIOS
+from mixedlub.report.style import panels, styled
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+FILM_LAWS = ("dowson_toyoda_central", "dowson_higginson_minimum", "moes_line", "inlet_shear_heating (Gupta)")
+FRICTION_LAWS = ("base model, isothermal", "base model and film_heating", "crook", "xu_kahraman")
+"""Laws that have a map."""
+NARROW, WIDE = (0.7, 1.0 / 0.7), (0.25, 4.0)
+"""Ratios at the ends of the colours of films and of friction."""
+
+
+def figures(laws: pd.DataFrame, fitted: pd.DataFrame) -> Iterator[tuple[str, Figure]]:
+    """Maps of laws of film and friction, and of the ratios that are fitted, over the conditions that they depend on."""
+    regime = ("moes_load", "Moes' load parameter M (-)"), ("moes_material", "Moes' material parameter L (-)")
+    sliding = ("hertz_pressure_GPa", "Hertz pressure (GPa)"), ("slide_roll_ratio", "slide-to-roll ratio (-)")
+    yield "film_laws", _maps(laws, _there(laws, FILM_LAWS), regime, NARROW, "film by the law over the solved one (-)")
+    label = "friction by the law over the solved one (-)"
+    yield "friction_laws", _maps(laws, _there(laws, FRICTION_LAWS), sliding, WIDE, label)
+    titles = "solved film over that of its law (-)", "traction of the contact over that at the largest pressure (-)"
+    yield "film_ratios", _maps(fitted, FILM_RATIOS, regime, NARROW, titles[0])
+    yield "traction_ratios", _maps(fitted, TRACTION_RATIOS, sliding, (0.4, 2.5), titles[1])
+
+
+def _there(table: pd.DataFrame, names: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(name for name in names if name in table)
+
+
+def _maps(
+    table: pd.DataFrame,
+    names: tuple[str, ...],
+    axes_of: tuple[tuple[str, str], tuple[str, str]],
+    ends: tuple[float, float],
+    label: str,
+) -> Figure:
+    """A panel a name: a mark a contact, its colour the ratio."""
+    (across, x_label), (up, y_label) = axes_of
+    with styled():
+        figure, axes, columns = panels(len(names), 2, height=2.4)
+        for place, (panel, name) in enumerate(zip(axes, names, strict=True)):
+            marks = panel.scatter(
+                table[across], table[up], c=table[name], s=5.0, cmap="coolwarm", norm=LogNorm(*ends), linewidths=0.0
+            )
+            panel.set_title(name.replace("_", " "))
+            _scale(panel, across, up)
+            panel.set_xlabel(x_label)
+            if place % columns == 0:
+                panel.set_ylabel(y_label)
+        bar = figure.colorbar(marks, ax=axes, label=label, extend="both", shrink=0.7)
+        ticks = [tick for tick in _TICKS if ends[0] <= tick <= ends[1]]
+        bar.set_ticks(ticks, labels=[f"{tick:g}" for tick in ticks])
+        bar.minorticks_off()
+    return figure
+
+
+_TICKS = (0.25, 0.4, 0.5, 0.7, 0.8, 0.9, 1.0, 1.1, 1.25, 1.4, 2.0, 2.5, 4.0)
+
+
+def _scale(panel: Axes, across: str, up: str) -> None:
+    """Logarithmic axes but for the material parameter and the pressure."""
+    if across == "moes_load":
+        panel.set_xscale("log")
+    if up == "slide_roll_ratio":
+        panel.set_yscale("log")
+
+
+def law_lines(summary: pd.DataFrame, oil: str) -> list[str]:
+    """The table of laws in words: of one oil, or of all."""
+    lines = [f"{'law over full solution':<44}{'contacts':>9}{'median':>9}{'5 %':>8}{'95 %':>8}"]
+    for row in summary[summary["oil"] == oil].to_dict("records"):
+        numbers = [row[name] for name in ("median_ratio", "low_ratio_5_percent", "high_ratio_95_percent")]
+        middle, low, high = (f"{value:.3g}" if np.isfinite(value) else "-" for value in numbers)
+        lines.append(f"{row['law']:<44}{row['contacts']:>9}{middle:>9}{low:>8}{high:>8}")
+    return lines
+
+
+def fit_lines(fits: pd.DataFrame, oil: str) -> list[str]:
+    """The table of factors and exponents in words, of one oil or of all."""
+    names = [name for name in fits if str(name).endswith("_exponent")]
+    heads = "".join(f"{str(name).removesuffix('_exponent'):>16}" for name in names)
+    lines = [f"{'full solution over base law':<30}{'rigs':>5}{'factor':>14}{heads}{'left':>8}"]
+    for row in fits[fits["oil"] == oil].to_dict("records"):
+        exponents = "".join(_with_sd(row[name], row[f"{name}_sd"]) for name in names)
+        spread = 100.0 * row["factor_sd_of_log"]
+        factor = f"{row['factor']:.3f}" + (f" ±{spread:.1f} %" if np.isfinite(spread) else "")
+        lines.append(
+            f"{row['ratio']:<30}{row['rigs']:>5}{factor:>14}{exponents}{100.0 * row['left_rms_of_log']:>6.1f} %"
+        )
+    return lines
+
+
+def _with_sd(value: float, sd: float) -> str:
+    text = f"{value:+.3f}" if np.isfinite(value) else ""
+    return f"{text + (f' ±{sd:.3f}' if np.isfinite(sd) else ''):>16}"

@@ -1,0 +1,34 @@
+"""The file of a fitted friction law: its name, what it was fitted to, its error, and its coefficients."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Literal
+
+from pydantic import ValidationInfo
+
+from mixedlub.schema.section import Number, Section, key
+from mixedlub.schema.toml_file import named_file, parse, read_toml
+
+SCHEMA, SUFFIX = "mixedlub-friction/1", ".toml"
+
+
+class FrictionFile(Section):
+    """Coefficients of a friction law that were fitted to solutions for one oil."""
+
+    schema_: Literal["mixedlub-friction/1"] = key("format of the file", example=SCHEMA, alias="schema")
+    law: Literal["condensed"] = key("the friction law that these are coefficients of", example="condensed")
+    oil: str = key("the oil of the solutions", example="m100")
+    fit: Mapping[str, Number] = key("solutions that it was fitted to, and its error on those left out", example={})
+    coefficients: Mapping[str, Number] = key("coefficients by their names", example={"c_0": -4.0})
+
+
+def coefficients_of(value: Any, info: ValidationInfo) -> Any:
+    """Coefficients as they are given, or those of a file that is named."""
+    if not isinstance(value, str):
+        return value
+    folder = (info.context or {}).get("folder")
+    if folder is None:
+        raise ValueError("is a file, which no folder is known for; give its coefficients")
+    path = named_file(folder, value, "friction_coefficients")
+    return dict(parse(FrictionFile, read_toml(path), str(path)).coefficients)
