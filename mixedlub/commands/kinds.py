@@ -14,10 +14,13 @@ EXAMPLE = "mixedlub kinds disc"
 
 def command(
     kind: Annotated[
-        str | None, typer.Argument(metavar="KIND", help="One kind, `study` or `gear`; all kinds when left out.")
+        str | None,
+        typer.Argument(
+            metavar="KIND", help="One kind, `study`, `gear` or a method of `evaluate`; all kinds when left out."
+        ),
     ] = None,
 ) -> None:
-    """The format of a case, kind by kind, of a study or of gears.
+    """The format of a case, kind by kind, of a study, of gears or of an evaluation.
 
     Columns of recordings.csv and keys of the file, with unit, default, allowed values and meaning.
     """

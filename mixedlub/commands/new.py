@@ -1,4 +1,4 @@
-"""`mixedlub new`: a template of a study, its factors, a case, contacts or gears, which runs unchanged."""
+"""`mixedlub new`: a template of a study, its factors, a case, contacts, gears, an evaluation; it runs unchanged."""
 
 from __future__ import annotations
 
@@ -39,7 +39,10 @@ Given = Mapping[str, Any]
 
 
 def command(
-    what: Annotated[str, typer.Argument(metavar="study|factors|case|ehl|gear", help="What to start.")],
+    what: Annotated[
+        str,
+        typer.Argument(metavar="WHAT", help="study, factors, case, ehl, gear, or a method of `mixedlub evaluate`."),
+    ],
     kind: Annotated[
         str | None, typer.Option(metavar="KIND", help=f"Kind of case; default {KIND}. `mixedlub kinds` lists them.")
     ] = None,
@@ -47,17 +50,22 @@ def command(
         Path | None, typer.Option(metavar="DIR", parser=named_folder, help="Folder to make; default out/new/WHAT.")
     ] = None,
 ) -> None:
-    """A study, its factors, a case, line contacts (ehl) or gears to start from.
+    """A study, its factors, a case, line contacts (ehl), gears or an evaluation to start from.
 
     A template with the values of an example rig: optional keys are comments with their meaning. It runs unchanged; the
     readings of a case are synthetic, from the base model.
     """
-    if what not in TEMPLATES:
-        raise InputError(f"no such template; {nearest(what, TEMPLATES)}", where="what", value=what)
+    from mixedlub.evaluate import EVALUATIONS
+
+    if what not in (*TEMPLATES, *EVALUATIONS):
+        raise InputError(f"no such template; {nearest(what, (*TEMPLATES, *EVALUATIONS))}", where="what", value=what)
     if what != CASE and kind is not None:
         raise InputError("only a case has a kind", where="--kind", value=kind)
     makers = {STUDY: study_files, FACTORS: factor_files, EHL: ehl_files, GEAR: gear_files}
-    files = makers[what]() if what != CASE else case_files(kind or KIND)
+    if what in makers:
+        files = makers[what]()
+    else:
+        files = case_files(kind or KIND) if what == CASE else evaluation_files(what)
     for name in files:
         if out is not None and (out / name).exists():
             raise InputError("exists, and a template would replace it; name another --out", where=str(out / name))
@@ -71,7 +79,7 @@ def command(
         EHL: (folder / "contacts.toml", ("ehl",)),
         GEAR: (folder / "gear.toml", ("gear",)),
         CASE: (folder, ("check", "diagnose")),
-    }[what]
+    }.get(what, (folder / f"{what}.toml", (f"evaluate {what}",)))
     echo(f"{' and '.join(files)} in {folder}, with the numbers of an example: put your own in their place, then")
     for name in commands:
         echo(f"  mixedlub {name} {place}")
@@ -119,6 +127,18 @@ def gear_files() -> dict[str, str]:
         "load": examples(Load),
     }
     return {"gear.toml": "\n".join(_lines(GearAnalysisFile, given, ("", "gears", "load", "mesh", "iso_6336"))) + "\n"}
+
+
+def evaluation_files(name: str) -> dict[str, str]:
+    """The file of an evaluation and the tables that it names."""
+    from mixedlub.evaluate import EVALUATIONS
+    from mixedlub.schema.section import tables
+
+    one = EVALUATIONS[name]
+    wanted = {table.name.split(".")[0] for table in tables(one.file)} - {"surfaces"} | {"", *one.example}
+    text = "\n".join(_lines(one.file, one.example, wanted)) + "\n"
+    recorded = {path.name: path.read_text(encoding="utf-8") for path in sorted(one.folder.glob("*.csv"))}
+    return {f"{name}.toml": text, **recorded}
 
 
 def study_text() -> str:

@@ -12,8 +12,9 @@ from typing import Any, Literal, get_args, get_origin
 
 import numpy as np
 
+from mixedlub.evaluate import EVALUATIONS
 from mixedlub.kinds import KINDS, Kind, kind
-from mixedlub.schema.section import FileTable, Key, plain, tables
+from mixedlub.schema.section import FileTable, Key, Section, plain, tables
 from mixedlub.schema.system_file import System
 from mixedlub.schema.table import BOOKKEEPING, RUN, Column, check_column, sd_column
 from mixedlub.schema.toml_file import toml_value
@@ -36,11 +37,14 @@ Row = tuple[str, ...]
 
 
 def kinds_text(name: str | None = None) -> str:
-    """The format of one kind of case, of all of them, of a study file, or of a file of `mixedlub gear`."""
+    """The format of one kind of case, of all of them, of a study, of gears, or of an evaluation."""
     if name in (STUDY, GEAR):
-        return "\n".join(_study() if name == STUDY else _gear())
+        file = StudyFile if name == STUDY else GearAnalysisFile
+        return "\n".join(_file("a study file" if name == STUDY else "a file of `mixedlub gear`", file))
+    if name is not None and name in EVALUATIONS:
+        return "\n".join(_evaluation(name))
     if name is not None and name not in KINDS:
-        known = (*KINDS, STUDY, GEAR)
+        known = (*KINDS, STUDY, GEAR, *EVALUATIONS)
         raise InputError(f"no such kind; {nearest(name, known)}", where="KIND", value=name)
     chosen = [kind(n) for n in (KINDS if name is None else (name,))]
     taken = {*EVERY_CASE, *(section for k in chosen for section in (*k.sections, *k.uses))}
@@ -56,16 +60,20 @@ def kinds_text(name: str | None = None) -> str:
     return "\n".join(lines).lstrip("\n")
 
 
-def _study() -> Iterator[str]:
-    yield "keys of a study file: unit, default, what is allowed, meaning"
-    for table in tables(StudyFile):
+def _file(what: str, file: type[Section]) -> Iterator[str]:
+    yield from _wrapped(f"keys of {what}: unit, default, what is allowed, meaning", 0, 2)
+    for table in tables(file):
         yield from ("", *_title(table), *_keys(table))
 
 
-def _gear() -> Iterator[str]:
-    yield "keys of a file of `mixedlub gear`: unit, default, what is allowed, meaning"
-    for table in tables(GearAnalysisFile):
-        yield from ("", *_title(table), *_keys(table))
+def _evaluation(name: str) -> Iterator[str]:
+    one = EVALUATIONS[name]
+    yield from _wrapped(f"{name}: {one.about}", 0, 2)
+    yield from _wrapped(f"source: {one.source}", 2, 4)
+    for table, columns in one.columns.items():
+        yield from ("", f"columns of {table}", *aligned([_column(c) for c in columns]))
+    yield ""
+    yield from _file(f"a file of `mixedlub evaluate {name}`", one.file)
 
 
 def about(kind_name: str) -> str:

@@ -89,6 +89,12 @@ degF     | °F
 F        | °F
 lbft     | lb ft
 ftlb     | ft lb
+L_min    | L/min
+W_K      | W/K
+um_m     | µm/m
+um_N     | µm/N
+N_um     | N/µm
+Hz       | Hz
 """
 _AS_WRITTEN = ("lbf", "kgf", "kg", "g", "psi", "kPa", "bar", "atm", "kN", "kW", "min", "K", "km", "h")
 """Header suffixes that are the unit itself."""

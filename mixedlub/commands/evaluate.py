@@ -1,0 +1,61 @@
+"""`mixedlub evaluate`: recordings of a rig turned into friction, with intervals."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from mixedlub.atomic import writing
+from mixedlub.commands.console import busy, echo, input_errors_from, note, output_folder
+from mixedlub.commands.figure_options import FiguresOrTables, Formats, chosen_formats
+
+NAME = "evaluate"
+EXAMPLE = "mixedlub new calorimetric --out rig && mixedlub evaluate calorimetric rig/calorimetric.toml"
+CASE = "case"
+"""Folder of the results that `mixedlub diagnose` reads."""
+
+
+def command(
+    method: Annotated[str, typer.Argument(metavar="METHOD", help="calorimetric, strain-gauge, off-line or two-disc.")],
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="The rig, its meters, and the tables it recorded.")],
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Folder for the results; default out/evaluate/NAME.")
+    ] = None,
+    figures: FiguresOrTables = True,
+    format_: Formats = "svg",
+) -> None:
+    """Recordings of a rig into friction, with intervals.
+
+    calorimetric: heat of the oil into gear loss and mean friction. strain-gauge: strains of teeth into normal and
+    friction force. off-line: displacement off the line of action into friction force. two-disc: torque into traction.
+
+    Tables, figures, and a case folder for `mixedlub diagnose`.
+    """
+    from mixedlub.evaluate import evaluate
+    from mixedlub.importers.case_writer import write_case
+    from mixedlub.report.evaluation import evaluation_figures
+    from mixedlub.report.style import save
+
+    formats = chosen_formats(format_)
+    with input_errors_from(str(file)), busy("evaluating"):
+        found = evaluate(method, file)
+    for text in found.notes:
+        note(text)
+    folder = output_folder(out, NAME, file.stem)
+    with writing(folder) as aside:
+        for name, table in found.tables.items():
+            table.to_csv(aside / f"{name}.csv", index=False, lineterminator="\n", float_format="%.8g")
+        if found.case is not None:
+            write_case(aside / CASE, found.case.system, found.case.columns, attachments=found.case.attachments)
+        if figures:
+            (aside / "figures").mkdir()
+            for name, figure in evaluation_figures(found):
+                for ending in formats:
+                    save(figure, aside / "figures" / f"{name}.{ending}")
+    for line in found.lines:
+        echo(f"  {line}")
+    echo(f"{', '.join(f'{name}.csv' for name in found.tables)} in {folder}")
+    if found.case is not None:
+        echo(f"a case of kind {found.case.system['kind']}: mixedlub diagnose {folder / CASE}")

@@ -1,0 +1,116 @@
+"""Description of an evaluation and of what it finds: tables, panels of figures, a case folder for the diagnosis."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mixedlub.schema.section import Section
+from mixedlub.schema.table import Column
+from mixedlub.schema.toml_file import read_toml
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Readings (``marker``) or a line of a figure; ``low`` and ``high`` are the ends of its 90 % interval."""
+
+    x: np.ndarray
+    y: np.ndarray
+    label: str = ""
+    marker: bool = False
+    low: np.ndarray | None = None
+    high: np.ndarray | None = None
+    group: int = 0
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One panel of a figure: the words of its axes with units, and its curves; those of one group share a colour."""
+
+    across: str
+    up: str
+    curves: tuple[Curve, ...]
+
+
+@dataclass(frozen=True)
+class CaseDraft:
+    """A case folder to be written: tables of ``system.toml``, columns of ``recordings.csv``, files that it names."""
+
+    system: Mapping[str, Any]
+    columns: Mapping[str, np.ndarray]
+    attachments: Mapping[str, bytes] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Evaluated:
+    """What was found: tables by the name of their file, figures by theirs, lines for the user, and a case."""
+
+    title: str
+    tables: Mapping[str, pd.DataFrame]
+    figures: Mapping[str, tuple[Panel, ...]]
+    lines: tuple[str, ...]
+    notes: tuple[str, ...] = ()
+    case: CaseDraft | None = None
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """A way from recordings to friction.
+
+    ``file`` is the class of its TOML file, ``columns`` are those of each table that it names; ``run(file, path)``
+    evaluates a file that was read from ``path``. ``example`` has the sections of its template; the tables that these
+    name are in ``templates/NAME`` beside the module of ``run``.
+    """
+
+    name: str
+    about: str
+    source: str
+    file: type[Section]
+    columns: Mapping[str, tuple[Column, ...]]
+    run: Callable[[Any, Path], Evaluated]
+    example: Mapping[str, Any]
+
+    @property
+    def folder(self) -> Path:
+        """The folder with the tables of its template."""
+        return Path(inspect.getfile(self.run)).parent / "templates" / self.name.replace("-", "_")
+
+
+FILES = ("table", "profile", "traces", "traces_along", "map", "oil")
+"""Keys whose values may be files beside the one that names them."""
+
+
+def attachments(sections: Any, folder: Path) -> dict[str, bytes]:
+    """The files that sections of a case name, by their path in the case."""
+    found: dict[str, bytes] = {}
+    for key, value in sections.items() if isinstance(sections, Mapping) else ():
+        found |= attachments(value, folder)
+        named = value if isinstance(value, list | tuple) else [value]
+        for name in named if key in FILES else ():
+            inside = isinstance(name, str) and not Path(name).is_absolute() and ".." not in Path(name).parts
+            if inside and (folder / name).is_file():
+                found[name] = (folder / name).read_bytes()
+    return found
+
+
+def case_draft(
+    path: Path,
+    kind: str,
+    sections: tuple[str, ...],
+    recording: Mapping[str, Any],
+    columns: Mapping[str, np.ndarray],
+    **further: Any,
+) -> CaseDraft:
+    """A case of a kind with sections as the file at ``path`` has them, and ``further`` ones."""
+    given = read_toml(path)
+    taken = ("boundary_friction", "description", *sections)
+    system = {"kind": kind, **{name: given[name] for name in taken if name in given}, **further}
+    return CaseDraft({**system, "recording": recording}, columns, attachments(system, path.parent))

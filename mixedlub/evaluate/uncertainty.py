@@ -1,0 +1,61 @@
+"""Uncertainty of what is linear in readings: independent errors, and errors common to them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+NORMAL_90 = 1.6448536269514722
+"""Half width of the 90 % interval of a normal distribution, in standard deviations."""
+
+
+@dataclass(frozen=True, eq=False)
+class Errors:
+    """Errors of n readings: sd of the independent ones (n,), and by source how far one sd of it moves each reading."""
+
+    independent: np.ndarray
+    common: Mapping[str, np.ndarray] = field(default_factory=dict)
+
+    def budget(self, weights: np.ndarray) -> dict[str, np.ndarray]:
+        """Standard deviation that each source contributes to ``weights @ readings``, rows of ``weights`` one by one.
+
+        >>> three = Errors(np.full(4, 0.2), {"offset": np.full(4, 0.3)})
+        >>> print({name: round(float(sd), 3) for name, sd in three.budget(np.full(4, 0.25)).items()})
+        {'readings': 0.1, 'offset': 0.3}
+        """
+        own = np.sqrt((weights * self.independent) ** 2 @ np.ones_like(self.independent))
+        return {"readings": own, **{name: np.abs(weights @ moved) for name, moved in self.common.items()}}
+
+    def sd(self, weights: np.ndarray) -> np.ndarray:
+        """Standard deviation of ``weights @ readings``."""
+        return combined(self.budget(weights))
+
+
+def combined(budget: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Root of the sum of squares of the sources.
+
+    >>> float(combined({"a": np.array(3.0), "b": np.array(4.0)}))
+    5.0
+    """
+    return np.sqrt(sum((np.asarray(sd) ** 2 for sd in budget.values()), np.array(0.0)))
+
+
+def interval(name: str, value: np.ndarray, sd: np.ndarray) -> dict[str, np.ndarray]:
+    """Columns of a value with its standard deviation and 90 % interval.
+
+    >>> list(interval("mean_friction", np.array([0.04]), np.array([0.002])))
+    ['mean_friction', 'mean_friction_sd', 'mean_friction_low90', 'mean_friction_high90']
+    """
+    half = NORMAL_90 * np.asarray(sd)
+    return {name: value, f"{name}_sd": sd, f"{name}_low90": value - half, f"{name}_high90": value + half}
+
+
+def ends_of(name: str) -> tuple[str, str, str]:
+    """Columns of a value and of the ends of its 90 % interval.
+
+    >>> ends_of("mean_friction")
+    ('mean_friction', 'mean_friction_low90', 'mean_friction_high90')
+    """
+    return name, f"{name}_low90", f"{name}_high90"

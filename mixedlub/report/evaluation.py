@@ -1,0 +1,49 @@
+"""Figures of evaluated recordings, from the panels that an evaluation describes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mixedlub.report.style import legend_above, panels, shades, styled
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from mixedlub.evaluate import Evaluated
+    from mixedlub.evaluate.evaluation import Curve, Panel
+
+
+def evaluation_figures(found: Evaluated) -> Iterator[tuple[str, Figure]]:
+    """Every figure with the name of its file."""
+    for name, drawn in found.figures.items():
+        yield name, _figure(found.title, drawn)
+
+
+def _figure(title: str, drawn: tuple[Panel, ...]) -> Figure:
+    with styled():
+        figure, axes, _ = panels(len(drawn), 2, height=3.0, sharex=False, sharey=False)
+        colours = shades(1 + max(curve.group for panel in drawn for curve in panel.curves))
+        for axis, panel in zip(axes, drawn, strict=True):
+            for curve in panel.curves:
+                _draw(axis, curve, colours[curve.group])
+            axis.set_xlabel(panel.across)
+            axis.set_ylabel(panel.up)
+        named = {label: line for axis in axes for line, label in zip(*axis.get_legend_handles_labels(), strict=True)}
+        legend_above(figure, (list(named.values()), list(named)) if named else axes[0], title, columns=2)
+    return figure
+
+
+def _draw(axis: Axes, curve: Curve, colour: np.ndarray) -> None:
+    label = curve.label or None
+    if curve.low is None or curve.high is None:
+        axis.plot(curve.x, curve.y, "o" if curve.marker else "-", color=colour, label=label)
+    elif curve.marker:
+        ends = np.abs([curve.y - curve.low, curve.high - curve.y])
+        axis.errorbar(curve.x, curve.y, yerr=ends, fmt="o", color=colour, label=label, elinewidth=0.8, capsize=2.0)
+    else:
+        axis.fill_between(curve.x, curve.low, curve.high, color=colour, alpha=0.25, linewidth=0.0)
+        axis.plot(curve.x, curve.y, color=colour, label=label)

@@ -1,0 +1,31 @@
+"""Tables of the templates of evaluations: `python -m mixedlub.validation.benches.templates FOLDER` writes them."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+from mixedlub.validation.benches import calorimetric
+from mixedlub.validation.benches.tables import as_csv
+
+SEED = 5
+"""Of the instrument errors of the templates."""
+
+
+def tables() -> dict[str, str]:
+    """Text by path below the folder of the templates."""
+    gear = calorimetric.Gear()
+    bench = replace(calorimetric.Bench(), sliding=calorimetric.sliding_of_mesh(gear))
+    return {"calorimetric/readings.csv": as_csv(calorimetric.recorded(bench, gear, SEED)[0])}
+
+
+def main(folder: Path) -> None:
+    """Write them all."""
+    for name, text in tables().items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))
