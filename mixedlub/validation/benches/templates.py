@@ -6,7 +6,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from mixedlub.validation.benches import calorimetric
+from mixedlub.validation.benches import calorimetric, strain_gauges
 from mixedlub.validation.benches.tables import as_csv
 
 SEED = 5
@@ -17,7 +17,12 @@ def tables() -> dict[str, str]:
     """Text by path below the folder of the templates."""
     gear = calorimetric.Gear()
     bench = replace(calorimetric.Bench(), sliding=calorimetric.sliding_of_mesh(gear))
-    return {"calorimetric/readings.csv": as_csv(calorimetric.recorded(bench, gear, SEED)[0])}
+    strains = strain_gauges.recorded(replace(strain_gauges.Bench(), turns=20), strain_gauges.Tooth(), SEED)
+    return {
+        "calorimetric/readings.csv": as_csv(calorimetric.recorded(bench, gear, SEED)[0]),
+        "strain_gauge/calibration.csv": as_csv(strains[0]),
+        "strain_gauge/recording.csv": as_csv(strains[1]),
+    }
 
 
 def main(folder: Path) -> None:
