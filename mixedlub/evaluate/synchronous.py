@@ -79,3 +79,38 @@ def synchronous_average(
 def _spacing(turn: np.ndarray, angle: np.ndarray) -> float:
     """Median angle between neighbouring samples of a turn."""
     return float(np.median(np.diff(angle)[np.diff(turn) == 0]))
+
+
+def cycle_average(
+    turn: np.ndarray, angle: np.ndarray, signal: np.ndarray, teeth: int, count: int, *, source: str
+) -> Average:
+    """Mean of one signal over a mesh cycle, at ``count`` angles from 0; ``angle`` in degrees since the pulse of a turn.
+
+    Whole turns are averaged tooth by tooth; the deviations of the teeth from their mean are the errors. Run-out, which
+    comes less often a turn than half the teeth, cancels in the mean and is taken out of these deviations.
+    """
+    along = 360.0 * (turn - turn.min()) + angle
+    order = np.argsort(along, kind="stable")
+    along, signal = along[order], signal[order]
+    if np.any(np.diff(along) <= 0.0):
+        again = float(along[:-1][np.diff(along) <= 0.0][0] % 360.0)
+        raise InputError("the same shaft angle twice in a revolution", where=f"{source}: shaft_angle_deg", value=again)
+    step = 360.0 / (teeth * count)
+    spacing = float(np.median(np.diff(along)))
+    widest = float(np.diff(along).max())
+    if widest > 90.0 / teeth:
+        rule = "a gap wider than a quarter of a tooth pitch"
+        raise InputError(rule, where=f"{source}: shaft_angle_deg", value=round(widest, 4))
+    first, last = np.ceil((along[0] - spacing) / 360.0), np.floor((along[-1] + spacing) / 360.0)
+    turns = int(last - first)
+    if turns < 1:
+        raise InputError("needs one whole revolution or more", where=f"{source}: revolution", value=turns)
+    places = 360.0 * first + step * np.arange(turns * teeth * count)
+    inside = np.clip(places, along[0], along[-1])
+    each = Akima1DInterpolator(along, signal, method="makima")(inside).reshape(turns, -1).mean(axis=0)
+    orders = np.fft.rfft(each)
+    orders[1 : teeth // 2] = 0.0
+    each = np.fft.irfft(orders, n=each.size).reshape(teeth, count)
+    mean = each.mean(axis=0)
+    errors = (each - mean) / np.sqrt(teeth * (teeth - 1))
+    return Average(step * np.arange(count), mean[:, None], errors[:, :, None], spacing)

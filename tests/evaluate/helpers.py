@@ -23,6 +23,7 @@ def written(folder: Path, method: str, tables: Mapping[str, str], **changed: Any
         given[name] = {**given.get(name, {}), **value} if isinstance(value, Mapping) else value
     for name, text in tables.items():
         (folder / name).write_text(text, encoding="utf-8")
+    given = {n: {k: v for k, v in s.items() if v is not None} if isinstance(s, dict) else s for n, s in given.items()}
     path = folder / f"{method}.toml"
     path.write_text(to_toml(given), encoding="utf-8")
     return path

@@ -6,7 +6,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from mixedlub.validation.benches import calorimetric, strain_gauges
+from mixedlub.validation.benches import calorimetric, off_line, strain_gauges
 from mixedlub.validation.benches.tables import as_csv
 
 SEED = 5
@@ -18,10 +18,12 @@ def tables() -> dict[str, str]:
     gear = calorimetric.Gear()
     bench = replace(calorimetric.Bench(), sliding=calorimetric.sliding_of_mesh(gear))
     strains = strain_gauges.recorded(replace(strain_gauges.Bench(), turns=20), strain_gauges.Tooth(), SEED)
+    slow, _ = off_line.recorded(replace(off_line.Bench(), turns=2), SEED)
     return {
         "calorimetric/readings.csv": as_csv(calorimetric.recorded(bench, gear, SEED)[0]),
         "strain_gauge/calibration.csv": as_csv(strains[0]),
         "strain_gauge/recording.csv": as_csv(strains[1]),
+        **{f"off_line/{name}": as_csv(table) for name, table in slow.items()},
     }
 
 

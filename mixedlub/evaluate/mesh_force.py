@@ -1,0 +1,150 @@
+"""Friction coefficients of a mesh cycle from the harmonics of the friction force of all pairs in contact."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from mixedlub.evaluate.frequency_response import Division, over_period
+from mixedlub.evaluate.synchronous import Average
+from mixedlub.gear import GearPair, Sharing, at_roll_angle
+from profiles.errors import InputError
+
+LARGEST_CONDITION = 1e4
+"""Condition number above which harmonics do not determine the local friction."""
+
+
+@dataclass(frozen=True)
+class Meters:
+    """Standard deviations: response (relative; shared, and by frequency), zero (um), normal force (relative).
+
+    ``centred``: the mean over the cycle is left out.
+    """
+
+    response: float
+    response_noise: float
+    zero: float
+    normal_force: float
+    centred: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Pattern:
+    """Friction force over a mesh cycle (P, M), N per unit of friction at each of P points of the path.
+
+    ``roll_angle`` (P,) are these points, deg; ``work`` (P,) weights them to the mean by sliding work.
+    """
+
+    roll_angle: np.ndarray
+    force: np.ndarray
+    work: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """Friction force over the cycle (M,), and friction coefficients at the points of the path and on average."""
+
+    force: np.ndarray
+    force_sd: np.ndarray
+    fitted: np.ndarray
+    friction: np.ndarray
+    friction_sd: np.ndarray
+    friction_sd_own: np.ndarray
+    mean: float
+    mean_sd: float
+    misfit: float
+
+
+def cycle_pattern(pair: GearPair, shared: Sharing, torque: float, first: float, points: int, count: int) -> Pattern:
+    r"""What friction at points of the path adds to the force of a mesh cycle.
+
+    .. math:: F = \sum_k \mu(\theta_k)\, W_k\, \mathrm{sign}(\theta_k - \theta_P)
+
+    Between the points, friction is linear; with one point it is one coefficient. ``first`` is the roll angle (deg) of a
+    pinion tooth at the start of the cycle; loads are those of the load sharing at the torque (N m).
+
+    Source: Vaishya and Houser 1999, AGMA 99FTMS1, equation 6.4.
+    """
+    fine = 8 * count
+    low, high = (math.degrees(end / pair.base_radius[0]) for end in (pair.path_start, pair.path_end))
+    pitch, step = math.degrees(pair.pitch_point / pair.base_radius[0]), 360.0 / pair.teeth[0]
+    places = np.linspace(low, high, points) if points > 1 else np.array([pitch])
+    force, work = np.zeros((points, fine)), np.zeros(points)
+    angle = first + (np.arange(fine) + 0.5) / fine * step
+    reach = math.ceil((high - low) / step) + 1
+    base = low + (angle - low) % step
+    for turn in range(-1, reach):
+        roll = base + turn * step
+        on = (roll > low) & (roll < high)
+        if not on.any():
+            continue
+        mesh = at_roll_angle(pair, shared, np.radians(roll[on]), slices=1)
+        load = mesh.load_share(torque) * torque / pair.base_radius[0]
+        shape = np.array([np.interp(roll[on], places, one) for one in np.eye(points)])
+        force[:, on] += shape * load * np.sign(roll[on] - pitch)
+        work += (shape * load * np.abs(roll[on] - pitch)).sum(axis=1)
+    # From the middles of fine steps to the samples of the cycle, which begin at its start.
+    harmonics = np.fft.rfft(force, axis=1) * np.exp(-1j * math.pi * np.arange(fine // 2 + 1) / fine)
+    return Pattern(places, np.fft.irfft(harmonics, n=fine, axis=1)[:, ::8], work / work.sum())
+
+
+def friction_of_cycle(
+    average: Average, divided: Division, pattern: Pattern, leak: float, meters: Meters, name: str
+) -> Found:
+    """Force and friction of the average mesh cycle (displacements in um), with their standard deviations.
+
+    ``leak`` is the displacement that the force along the line of action causes. Friction follows by least squares from
+    the harmonics kept, so that what the filter takes from the force does not lower it.
+    """
+    count = average.mean.shape[0]
+    keep = np.ones(divided.inverse.size)
+    keep[0] = 0.0 if meters.centred else 1.0
+    harmonics = divided.force(average.mean[:, 0] - leak) * keep
+    own = divided.force(average.errors[:, :, 0]) * keep
+    shared = [harmonics * meters.response]
+    zero = np.zeros_like(harmonics)
+    zero[0] = meters.zero * divided.inverse[0].real * keep[0]
+    shared.append(zero)
+    for order in range(harmonics.size):
+        for turned in (1.0, 1j) if order else (1.0,):
+            one = np.zeros_like(harmonics)
+            one[order] = harmonics[order] * turned * meters.response_noise
+            shared.append(one)
+    errors = np.concatenate([own, np.array(shared)])
+    design = _as_real(divided.harmonics(pattern.force) * divided.gain * keep).T
+    size = np.linalg.norm(design, axis=0)
+    if design.shape[0] < design.shape[1] or not np.linalg.cond(design / size) <= LARGEST_CONDITION:
+        rule = f"{harmonics.size - 1} harmonics of the mesh do not determine friction at so many points"
+        raise InputError(rule, where=f"recordings.{name}: filter.local_points", value=design.shape[1])
+    inverse = np.linalg.pinv(design)
+    friction, moved = inverse @ _as_real(harmonics), _as_real(errors) @ inverse.T
+    of_load = friction * meters.normal_force
+    own_sd = np.sqrt((moved[: len(own)] ** 2).sum(axis=0))
+    fitted = over_period(_as_complex(design @ friction), count)
+    force = over_period(harmonics, count)
+    return Found(
+        force=force,
+        force_sd=np.sqrt((over_period(errors, count) ** 2).sum(axis=0)),
+        fitted=fitted,
+        friction=friction,
+        friction_sd=np.sqrt((moved**2).sum(axis=0) + of_load**2),
+        friction_sd_own=own_sd,
+        mean=float(pattern.work @ friction),
+        mean_sd=float(np.sqrt(((moved @ pattern.work) ** 2).sum() + (pattern.work @ of_load) ** 2)),
+        misfit=float(np.sqrt(((force - fitted) ** 2).mean())),
+    )
+
+
+def _as_real(harmonics: np.ndarray) -> np.ndarray:
+    """Real and imaginary parts side by side (..., 2 J + 1), scaled so that squares add up to the mean square."""
+    rest = harmonics[..., 1:] * math.sqrt(2.0)
+    return np.concatenate([harmonics[..., :1].real, rest.real, rest.imag], axis=-1)
+
+
+def _as_complex(parts: np.ndarray) -> np.ndarray:
+    """The harmonics of their real and imaginary parts."""
+    count = (parts.shape[-1] - 1) // 2
+    rest = (parts[..., 1 : 1 + count] + 1j * parts[..., 1 + count :]) / math.sqrt(2.0)
+    return np.concatenate([parts[..., :1], rest], axis=-1)
