@@ -73,8 +73,8 @@ def assumed(case: Case, forward: Forward | None) -> Iterator[str]:
     if system.gears is not None:
         yield from _line("gears", gears_taken(system.gears))
     if system.contact is not None and "contact" in sections:
-        left = {key: _shown(getattr(system.contact, key)) for key in _open(system.contact) if key != "width_mm"}
-        yield from _line("contact", left)
+        given = {key: getattr(system.contact, key) for key in _open(system.contact)}
+        yield from _line("contact", {key: _shown(value) for key, value in given.items() if value is not None})
     yield from _surfaces(system) if "surfaces" in sections else ()
     effects = () if forward is None else forward.effects()
     ambient = "ambient_temperature_C" not in system.recording.model_fields_set

@@ -92,7 +92,9 @@ def _bodies(case: Case) -> Iterator[str]:
         )
     if system.contact is not None:
         radii = " and ".join(f"{r:g}" for r in system.contact.radius_mm)
-        yield f"Contact: {system.contact.geometry} contact of radii {radii} mm."
+        crowns = system.contact.transverse_radius_mm
+        across = "" if crowns is None else f" along and {' and '.join(f'{r:g}' for r in crowns)} mm across the motion"
+        yield f"Contact: {system.contact.geometry} contact of radii {radii} mm{across}."
     if "lubricant" in case.kind.sections or system.lubricant is not None:
         oil = case.rig.oil()
         low, high = (t - ZERO_CELSIUS for t in oil.temperature)

@@ -41,18 +41,28 @@ def point_reading(friction: np.ndarray) -> np.ndarray:
     return friction
 
 
+def reduced_radius(radii_mm: tuple[float, float], key: str) -> float:
+    """Radius (m) of the two bodies together, by the sum of their curvatures; not of two planes.
+
+    >>> round(reduced_radius((25.4, 38.1), "radius_mm") * 1e3, 2)
+    15.24
+    """
+    curvature = sum(1.0 / (r * 1e-3) for r in radii_mm)
+    if curvature <= 0:
+        raise InputError("one of the two bodies must be curved", where=f"contact.{key}", value=radii_mm)
+    return 1.0 / curvature
+
+
 def contact_inputs(contact: system_file.Contact, table: Table) -> Inputs:
     """Chain inputs of the bodies and their motion."""
     first, second = contact.youngs_modulus_GPa
     modulus = reduced_modulus((first * 1e9, second * 1e9), contact.poisson_ratio)
-    curvature = sum(1.0 / (r * 1e-3) for r in contact.radius_mm)
-    if curvature <= 0:
-        raise InputError("one of the two bodies must be curved", where="contact.radius_mm", value=contact.radius_mm)
-    radius = 1.0 / curvature
+    radius = reduced_radius(contact.radius_mm, "radius_mm")
+    across = contact.transverse_radius_mm
     speed = column(table["entrainment_speed_m_s"])
     inputs: Inputs = {
         "radius": radius,
-        "transverse_radius": radius,
+        "transverse_radius": radius if across is None else reduced_radius(across, "transverse_radius_mm"),
         "reduced_modulus": modulus,
         "load": column(table["load_N"]),
         "entrainment_speed": speed,

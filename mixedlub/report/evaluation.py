@@ -26,7 +26,7 @@ def evaluation_figures(found: Evaluated) -> Iterator[tuple[str, Figure]]:
 def _figure(title: str, drawn: tuple[Panel, ...]) -> Figure:
     with styled():
         figure, axes, _ = panels(len(drawn), 2, height=3.0, sharex=False, sharey=False)
-        colours = shades(1 + max(curve.group for panel in drawn for curve in panel.curves))
+        colours = shades(1 + max(curve.group for panel in drawn for curve in panel.curves))[::-1]
         for axis, panel in zip(axes, drawn, strict=True):
             for curve in panel.curves:
                 _draw(axis, curve, colours[curve.group])

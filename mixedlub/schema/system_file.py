@@ -113,8 +113,16 @@ class Gears(Section):
 
 
 class Contact(Section):
-    geometry: Literal["line", "point"] = key("form of contact", "line", values={"line": "cylinders", "point": "a ball"})
+    geometry: Literal["line", "point"] = key(
+        "form of contact", "line", values={"line": "cylinders", "point": "a ball or crowned discs"}
+    )
     radius_mm: tuple[Float, Float] = key("radii of the two bodies; inf is flat", example=[20.0, 25.4])
+    transverse_radius_mm: tuple[Float, Float] | None = key(
+        "radii across the motion, of crowned discs; only of a point contact; left out: those along it",
+        None,
+        example=[76.2, 76.2],
+        alternative=True,
+    )
     width_mm: Number | None = key("width of a line contact, which needs it; a point has none", None, example=6.0)
     youngs_modulus_GPa: Pair = key("Young's moduli of the two bodies", (206.0, 206.0))
     poisson_ratio: Pair = key("Poisson's ratios of the two bodies", (0.3, 0.3))
@@ -123,6 +131,8 @@ class Contact(Section):
     def _line_has_width(self) -> Contact:
         if self.geometry == "line" and self.width_mm is None:
             raise ValueError("a line contact needs width_mm")
+        if self.geometry == "line" and self.transverse_radius_mm is not None:
+            raise ValueError('transverse_radius_mm acts only with geometry = "point"; leave it out')
         return self
 
 

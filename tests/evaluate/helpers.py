@@ -30,8 +30,12 @@ def written(folder: Path, method: str, tables: Mapping[str, str], **changed: Any
 
 
 def assert_intervals_hold(truth: np.ndarray, value: np.ndarray, low: np.ndarray, high: np.ndarray) -> None:
-    """Each column of runs holds the truth in 85 to 95 % of them, and is not much wider than the estimates scatter."""
+    """Intervals hold the truth in 85 to 95 % of the runs, and are not much wider than the estimates scatter.
+
+    Of 200 runs a true 90 % gives 85.8 to 94.2 % in two standard deviations; a single column of many may lie further out.
+    """
     held = ((low < truth) & (truth < high)).mean(axis=0)
     wide = (high - low).mean(axis=0) / (TO_90 * (value - truth).std(axis=0))
-    assert np.all((held >= 0.85) & (held <= 0.95)), held
+    assert 0.85 <= held.mean() <= 0.95, held
+    assert np.all((held >= 0.82) & (held <= 0.98)), held
     assert np.all(wide <= 1.5), wide
