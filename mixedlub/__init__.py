@@ -19,6 +19,7 @@ PUBLIC = {
     "power_loss": "mixedlub.api.loss",
     "along_path": "mixedlub.api.loss",
     "load_distribution": "mixedlub.api.gear",
+    "evaluate_recording": "mixedlub.api.evaluation",
     "plot": "mixedlub.api.plot",
     "diagnose": "mixedlub.api.diagnosis",
     "simulate": "mixedlub.api.diagnosis",

@@ -60,6 +60,7 @@ def pieces() -> dict[str, str]:
         "oil_keys": _oil_keys(),
         "gear_keys": _file_keys("mixedlub.tooth_contact.file", "GearAnalysisFile"),
         "presets": _presets(),
+        "evaluations": _evaluations(),
         "ehl_keys": _file_keys("mixedlub.ehl.file", "EhlFile"),
         "ehl_oil_keys": _file_keys("mixedlub.ehl.oil.file", "OilFile"),
         "api": _api(),
@@ -244,6 +245,24 @@ def _file_keys(module: str, name: str) -> str:
 
     file = getattr(import_module(module), name)
     return "\n\n".join(part for table in tables(file) if not table.title.startswith("gears") for part in _keys(table))
+
+
+def _evaluations() -> str:
+    """Every method of `mixedlub evaluate`: its source, the columns of its tables and the keys of its file."""
+    from mixedlub.evaluate import EVALUATIONS
+    from mixedlub.report.format_reference import column_rows
+    from mixedlub.schema.section import tables
+
+    parts = []
+    for one in EVALUATIONS.values():
+        parts += [f"## {one.name}", f"{one.about[:1].upper()}{one.about[1:]}. Source: {one.source}."]
+        for title, columns in one.columns.items():
+            parts += [f"Columns of {title}:", _table(COLUMN_HEAD, column_rows(columns))]
+        elsewhere = ("gears", "lubricant", "surfaces", "contact")
+        parts += [
+            part for table in tables(one.file) if table.name.split(".")[0] not in elsewhere for part in _keys(table)
+        ]
+    return "\n\n".join(parts)
 
 
 def _keys(table: Any, use: str = "") -> Iterator[str]:

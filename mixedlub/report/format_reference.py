@@ -71,7 +71,7 @@ def _evaluation(name: str) -> Iterator[str]:
     yield from _wrapped(f"{name}: {one.about}", 0, 2)
     yield from _wrapped(f"source: {one.source}", 2, 4)
     for table, columns in one.columns.items():
-        yield from ("", f"columns of {table}", *aligned([_column(c) for c in columns]))
+        yield from ("", f"columns of {table}", *aligned(column_rows(columns)))
     yield ""
     yield from _file(f"a file of `mixedlub evaluate {name}`", one.file)
 
@@ -102,6 +102,11 @@ def kind_rows(k: Kind) -> list[Row]:
     one = "reading" if len(k.readings) == 1 else "one of these"
     rows = [_column(c) for c in (*k.columns, *k.instrument_channels)]
     return [*rows, *(_column(c, needed=one) for c in k.readings)]
+
+
+def column_rows(columns: Sequence[Column]) -> list[Row]:
+    """Rows of columns of any table."""
+    return [_column(c) for c in columns]
 
 
 def _named(sections: Sequence[str]) -> str:

@@ -25,6 +25,7 @@ POINTS = {
     "mixedlub.friction": ("fan_rubbing",),
     "mixedlub.laws": ("fan_film", "fan_viscosity", "fan_shear", "fan_friction"),
     "mixedlub.load_sharing": ("fan_sharing",),
+    "mixedlub.evaluations": ("fan_evaluation",),
     "mixedlub.importers": ("fan_importer",),
     "mixedlub.readers": ("fan_reader:READER",),
 }
@@ -196,6 +197,13 @@ def test_the_format_reference_has_the_parts_of_another_package(installed: Path) 
         assert part in text
     for law in ("half_film", "linear", "newton", "film_only", "fan_rubbing"):
         assert f'"{law}"' in text
+
+
+def test_an_evaluation_of_another_package_has_its_template_and_runs(installed: Path, tmp_path: Path) -> None:
+    assert run(installed, "-m", "mixedlub", "new", "fan", "--out", tmp_path / "rig").returncode == 0
+    said = run(installed, "-m", "mixedlub", "evaluate", "fan", tmp_path / "rig" / "fan.toml", "--out", tmp_path / "out")
+    assert "torque 0.2865 N m" in said.stdout, said.stderr
+    assert (tmp_path / "out" / "figures" / "drag.svg").is_file()
 
 
 def test_a_package_that_cannot_be_loaded_is_named(installed: Path) -> None:

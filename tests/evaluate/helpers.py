@@ -32,7 +32,7 @@ def written(folder: Path, method: str, tables: Mapping[str, str], **changed: Any
 def assert_intervals_hold(truth: np.ndarray, value: np.ndarray, low: np.ndarray, high: np.ndarray) -> None:
     """Intervals hold the truth in 85 to 95 % of the runs, and are not much wider than the estimates scatter.
 
-    Of 200 runs a true 90 % gives 85.8 to 94.2 % in two standard deviations; a single column of many may lie further out.
+    Of 200 runs a true 90 % gives 85.8 to 94.2 % in two standard deviations; one column of many may lie further out.
     """
     held = ((low < truth) & (truth < high)).mean(axis=0)
     wide = (high - low).mean(axis=0) / (TO_90 * (value - truth).std(axis=0))

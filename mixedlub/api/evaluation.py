@@ -1,0 +1,31 @@
+"""Recordings of a rig turned into friction, from Python."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from mixedlub.schema.findings import collected, warn_of
+from profiles.errors import as_path
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+def evaluate_recording(method: str, file: Any) -> dict[str, pd.DataFrame]:
+    """The tables of `mixedlub evaluate` by name: a method, as ``"calorimetric"``, and the path of its file.
+
+    >>> import tempfile, pathlib
+    >>> from mixedlub.commands.new import evaluation_files
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     for name, text in evaluation_files("two-disc").items():
+    ...         _ = pathlib.Path(folder, name).write_text(text, encoding="utf-8")
+    ...     found = evaluate_recording("two-disc", pathlib.Path(folder, "two-disc.toml"))
+    >>> sorted(found), len(found["traction"])
+    (['sweeps', 'traction'], 24)
+    """
+    from mixedlub.evaluate import evaluate
+
+    with collected() as findings:
+        found = evaluate(method, as_path(file, "evaluate_recording: file"))
+    warn_of(findings)
+    return dict(found.tables)
