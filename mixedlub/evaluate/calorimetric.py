@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 from pydantic import Field, model_validator
 
-from mixedlub.evaluate.evaluation import CaseDraft, Curve, Evaluated, Evaluation, Panel, case_draft
+from mixedlub.evaluate.evaluation import CaseDraft, Curve, Evaluated, Evaluation, Panel, case_draft, check_surfaces
 from mixedlub.evaluate.load_stages import LoadStages, Split, split_loss
 from mixedlub.evaluate.uncertainty import Errors, combined, ends_of, interval
 from mixedlub.gear import GearPair, Sharing, local_loss_factor, mesh
@@ -98,6 +98,10 @@ COLUMNS = (
 )
 
 
+MOST_TORQUES = 24
+"""Cost limit. Torques at which the load is distributed; the loss factor of others is interpolated."""
+
+
 @dataclass(frozen=True, eq=False)
 class Heat:
     """Heat balance of n readings, W: what the oil took up and what of it the gears lost, with its errors."""
@@ -167,6 +171,8 @@ def loss_factor(pair: GearPair, shared: Sharing, torque: np.ndarray) -> np.ndarr
     loaded = np.unique(torque[torque > 0.0])
     if loaded.size == 0:
         raise InputError("no reading has a load, so there is no friction to find", where="torque_Nm", value=0.0)
+    if loaded.size > MOST_TORQUES:
+        loaded = np.linspace(loaded[0], loaded[-1], MOST_TORQUES)
     return np.interp(torque, loaded, local_loss_factor(mesh(pair, shared), loaded))
 
 
@@ -307,9 +313,8 @@ def _case(file: CalorimetricFile, path: Path, table: Table, heat: Heat) -> CaseD
     surfaces = ("pinion_surface", "gear_surface")
     if not file.surfaces or any(name not in table for name in surfaces):
         return None
-    named = {str(one) for name in surfaces for one in table[name]}
-    for name in sorted(named - file.surfaces.keys()):
-        raise InputError("the file has no such surface", where=f"{table.source}: pinion_surface", value=name)
+    for name in surfaces:
+        check_surfaces(file.surfaces, table[name], f"{table.source}: {name}")
     loaded = table["torque_Nm"] > 0.0
     common = heat.errors.common
     scale = combined({name: common[name] / heat.loss for name in ("flow meter", "density", "specific heat")})

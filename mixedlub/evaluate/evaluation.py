@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,6 +13,7 @@ import numpy as np
 from mixedlub.schema.section import Section
 from mixedlub.schema.table import Column
 from mixedlub.schema.toml_file import read_toml
+from profiles.errors import InputError, nearest
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -99,6 +100,12 @@ def attachments(sections: Any, folder: Path) -> dict[str, bytes]:
             if inside and (folder / name).is_file():
                 found[name] = (folder / name).read_bytes()
     return found
+
+
+def check_surfaces(known: Collection[str], named: Iterable[object], where: str) -> None:
+    """Refuse a surface that the file does not describe."""
+    for name in sorted({str(one) for one in named} - set(known)):
+        raise InputError(f"the file has no such surface; {nearest(name, known)}", where=where, value=name)
 
 
 def case_draft(

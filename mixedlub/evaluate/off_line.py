@@ -11,15 +11,15 @@ import numpy as np
 import pandas as pd
 from pydantic import Field, model_validator
 
-from mixedlub.evaluate.evaluation import CaseDraft, Curve, Evaluated, Evaluation, Panel, case_draft
+from mixedlub.evaluate.evaluation import CaseDraft, Curve, Evaluated, Evaluation, Panel
 from mixedlub.evaluate.frequency_response import Response, division
 from mixedlub.evaluate.mesh_force import Found, Meters, cycle_pattern, friction_of_cycle
+from mixedlub.evaluate.mesh_recording import MeshRecording, SpurGearFile, mesh_friction_case
 from mixedlub.evaluate.synchronous import Average, cycle_average
 from mixedlub.evaluate.uncertainty import ends_of, interval
 from mixedlub.rig.build import gear_pair, sharing
 from mixedlub.schema.findings import collected
 from mixedlub.schema.section import Number, Section, Whole, key
-from mixedlub.schema.system_file import Gears, RigFile
 from mixedlub.schema.table import Column, read_table
 from mixedlub.schema.toml_file import named_file
 from profiles.errors import InputError
@@ -74,33 +74,14 @@ class Filter(Section):
     local_points: Whole = key("points of the path between which friction is linear; 1: constant", 5, ge=1, le=50)
 
 
-class RecordingSection(Section):
-    file: str = key("table of the displacements, relative to this file", example="recording.csv")
-    torque_Nm: Positive = key("torque on the pinion", example=135.6)
-    speed_rpm: Positive = key("speed of the pinion", example=200.0)
-    oil_temperature_C: Number = key("temperature of the oil", example=40.0, ge=-60.0, le=300.0)
-    roll_angle_at_pulse_deg: Number = key("roll angle of a pinion tooth at angle 0", example=10.324)
-    pinion_surface: str | None = key("a surface of the file, for the case", None, example="ground")
-    gear_surface: str | None = key("a surface of the file, for the case", None, example="ground")
-
-
-class OffLineFile(RigFile):
+class OffLineFile(SpurGearFile):
     """Gears whose shaft moves off the line of action, and how the rig responds."""
 
     schema_: Literal["mixedlub-off-line/1"] = key("format of the file", example="mixedlub-off-line/1", alias="schema")
     title: str = key("title of the figures", "Off-line force", example="Variable centre distance rig")
-    gears: Gears = key("the spur gear pair and its load sharing")
     shaft: Shaft = key("how the shaft of the pinion answers to forces off the line of action")
     meters: MeterSection = key("standard deviations of the meters", MeterSection())
     filter: Filter = key("which frequencies are used, and how")
-    recordings: Annotated[dict[str, RecordingSection], Field(min_length=1)] = key("one table a recording")
-
-    @model_validator(mode="after")
-    def _spur(self) -> OffLineFile:
-        if self.gears.helix_angle_deg != 0.0:
-            angle = self.gears.helix_angle_deg
-            raise ValueError(f"gears.helix_angle_deg = {angle:g}: one roll angle a tooth holds for spur gears")
-        return self
 
 
 DISPLACEMENT = Column("off_line_displacement_um", meaning="of the shaft, positive where friction of recess moves it")
@@ -168,7 +149,7 @@ def _coupling(file: OffLineFile, folder: Path) -> tuple[float, float]:
     return coupling_of(direction, force, displacement, table.source)
 
 
-def _average(one: RecordingSection, teeth: int, samples: int, folder: Path) -> Average:
+def _average(one: MeshRecording, teeth: int, samples: int, folder: Path) -> Average:
     path = named_file(folder, one.file, "recordings.file")
     table = read_table(path, RECORDING, key=("revolution", "shaft_angle_deg"))
     turn, angle, displacement = (table[c.name] for c in RECORDING)
@@ -230,7 +211,7 @@ def run(file: OffLineFile, path: Path) -> Evaluated:
     )
 
 
-def _force_table(name: str, one: RecordingSection, found: Found, average: Average) -> pd.DataFrame:
+def _force_table(name: str, one: MeshRecording, found: Found, average: Average) -> pd.DataFrame:
     columns: dict[str, Any] = {
         "recording": name,
         "shaft_angle_deg": average.angle,
@@ -241,7 +222,7 @@ def _force_table(name: str, one: RecordingSection, found: Found, average: Averag
     return pd.DataFrame(columns)[:: max(1, average.angle.size // 128)]
 
 
-def _local_table(name: str, one: RecordingSection, found: Found, roll_angle: np.ndarray) -> pd.DataFrame:
+def _local_table(name: str, one: MeshRecording, found: Found, roll_angle: np.ndarray) -> pd.DataFrame:
     return pd.DataFrame(
         {
             "recording": name,
@@ -254,7 +235,7 @@ def _local_table(name: str, one: RecordingSection, found: Found, roll_angle: np.
     )
 
 
-def _summary(name: str, one: RecordingSection, found: Found, harmonics: int) -> dict[str, Any]:
+def _summary(name: str, one: MeshRecording, found: Found, harmonics: int) -> dict[str, Any]:
     mean = interval("mean_friction", np.array(found.mean), np.array(found.mean_sd))
     return {
         "recording": name,
@@ -293,19 +274,12 @@ def _figures(file: OffLineFile, tables: dict[str, pd.DataFrame]) -> dict[str, tu
 
 def _case(file: OffLineFile, path: Path, table: pd.DataFrame) -> CaseDraft | None:
     """Local friction as a case of mesh friction."""
-    named = {s for one in file.recordings.values() for s in (one.pinion_surface, one.gear_surface)}
-    if file.filter.local_points == 1 or None in named or file.lubricant is None or not file.surfaces:
+    if file.filter.local_points == 1:
         return None
-    for name in sorted(str(one) for one in named if one not in file.surfaces):
-        raise InputError("the file has no such surface", where=f"{path}: recordings", value=name)
-    recorded: dict[str, np.ndarray] = {}
-    for column in ("torque_Nm", "speed_rpm", "oil_temperature_C", "pinion_surface", "gear_surface"):
-        recorded[column] = np.array([getattr(file.recordings[name], column) for name in table["recording"]])
-    for column in ("roll_angle_deg", "friction_coefficient"):
-        recorded[column] = table[column].to_numpy()
-    recorded["friction_coefficient_sd"] = table["friction_coefficient_sd"].to_numpy()
-    recording = {"quantity": "friction_coefficient", "includes": "friction force off the line of action"}
-    return case_draft(path, "mesh_friction", ("gears", "lubricant", "surfaces"), recording, recorded)
+    names = ("roll_angle_deg", "friction_coefficient", "friction_coefficient_sd")
+    columns = {name: table[name].to_numpy() for name in names}
+    includes = "friction force off the line of action"
+    return mesh_friction_case(file, path, table["recording"].to_numpy(), columns, includes, {})
 
 
 EVALUATION = Evaluation(

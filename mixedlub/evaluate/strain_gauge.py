@@ -10,10 +10,11 @@ from typing import Annotated, Any, Literal
 
 import numpy as np
 import pandas as pd
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from mixedlub.evaluate.evaluation import CaseDraft, Curve, Evaluated, Evaluation, Panel, case_draft
+from mixedlub.evaluate.evaluation import CaseDraft, Curve, Evaluated, Evaluation, Panel
 from mixedlub.evaluate.influence import Influence, fit_influence
+from mixedlub.evaluate.mesh_recording import MeshRecording, SpurGearFile, mesh_friction_case
 from mixedlub.evaluate.synchronous import Average, synchronous_average
 from mixedlub.evaluate.tooth_forces import (
     Forces,
@@ -30,7 +31,6 @@ from mixedlub.gear import GearPair
 from mixedlub.rig.build import gear_pair
 from mixedlub.schema.findings import collected
 from mixedlub.schema.section import Number, Section, Whole, key
-from mixedlub.schema.system_file import Gears, RigFile
 from mixedlub.schema.table import Column, read_table
 from mixedlub.schema.toml_file import named_file
 from profiles.errors import InputError
@@ -80,17 +80,7 @@ class FrictionSection(Section):
     samples_per_revolution: Whole = key("angles to which every revolution is interpolated", 1000, ge=10, le=1_000_000)
 
 
-class RecordingSection(Section):
-    file: str = key("table of the strains, relative to this file", example="recording.csv")
-    torque_Nm: Positive = key("torque on the pinion", example=71.7)
-    speed_rpm: Positive = key("speed of the pinion", example=2000.0)
-    oil_temperature_C: Number = key("temperature of the oil", example=70.0, ge=-60.0, le=300.0)
-    roll_angle_at_pulse_deg: Number = key("that of tooth 1 at shaft angle 0", example=31.88)
-    pinion_surface: str | None = key("a surface of the file, for the case", None, example="ground")
-    gear_surface: str | None = key("a surface of the file, for the case", None, example="ground")
-
-
-class StrainGaugeFile(RigFile):
+class StrainGaugeFile(SpurGearFile):
     """Gears with strain gauges, their calibration and their recordings."""
 
     schema_: Literal["mixedlub-strain-gauge/1"] = key(
@@ -98,19 +88,9 @@ class StrainGaugeFile(RigFile):
     )
     title: str = key("title of the figures", "Strain gauges", example="NASA gear noise rig")
     calibration: str = key("table of the calibration, relative to this file", example="calibration.csv")
-    gears: Gears = key("the spur gear pair")
     gauges: Gauges = key("where the gauges are, and how they are calibrated")
     meters: MeterSection = key("standard deviations of the meters", MeterSection())
     friction: FrictionSection = key("how forces become friction", FrictionSection())
-    recordings: Annotated[dict[str, RecordingSection], Field(min_length=1)] = key("one table a recording")
-
-    @model_validator(mode="after")
-    def _spur(self) -> StrainGaugeFile:
-        if self.gears.helix_angle_deg != 0.0:
-            raise ValueError(
-                f"gears.helix_angle_deg = {self.gears.helix_angle_deg:g}: one roll angle a tooth holds for spur gears"
-            )
-        return self
 
 
 CALIBRATION = (
@@ -149,7 +129,7 @@ def _calibrated(file: StrainGaugeFile, folder: Path) -> Influence:
     )
 
 
-def _average(file: StrainGaugeFile, one: RecordingSection, folder: Path) -> Average:
+def _average(file: StrainGaugeFile, one: MeshRecording, folder: Path) -> Average:
     path = named_file(folder, one.file, "recordings.file")
     table = read_table(path, (*RECORDING, *_gauge_columns(file)), key=("revolution", "shaft_angle_deg"))
     strains = np.stack([table[name] for name in file.gauges.columns], axis=1)
@@ -205,7 +185,7 @@ def run(file: StrainGaugeFile, path: Path) -> Evaluated:
     )
 
 
-def _table(name: str, one: RecordingSection, forces: Forces, pair: GearPair, wheel: str) -> pd.DataFrame:
+def _table(name: str, one: MeshRecording, forces: Forces, pair: GearPair, wheel: str) -> pd.DataFrame:
     """One row an angle and instrumented tooth in contact."""
     way = np.radians(forces.roll_angle) * pair.base_radius[0 if wheel == "pinion" else 1]
     pinion = way if wheel == "pinion" else pair.line_of_action_length - way
@@ -230,7 +210,7 @@ def _table(name: str, one: RecordingSection, forces: Forces, pair: GearPair, whe
 
 def _summary(
     name: str,
-    one: RecordingSection,
+    one: MeshRecording,
     forces: Forces,
     meshing: Meshing,
     pair: GearPair,
@@ -322,27 +302,17 @@ def _figures(file: StrainGaugeFile, tables: dict[str, pd.DataFrame]) -> dict[str
 
 def _case(file: StrainGaugeFile, path: Path, table: pd.DataFrame) -> CaseDraft | None:
     """Friction of single contact as a case of mesh friction."""
-    named = {s for one in file.recordings.values() for s in (one.pinion_surface, one.gear_surface)}
-    if None in named or file.lubricant is None or not file.surfaces:
-        return None
-    for name in sorted(str(one) for one in named if one not in file.surfaces):
-        raise InputError("the file has no such surface", where=f"{path}: recordings", value=name)
     rows = table[table["single_contact"]]
-    recorded: dict[str, np.ndarray] = {}
-    for column in ("torque_Nm", "speed_rpm", "oil_temperature_C", "pinion_surface", "gear_surface"):
-        recorded[column] = np.array([getattr(file.recordings[name], column) for name in rows["recording"]])
-    recorded["roll_angle_deg"] = rows["pinion_roll_angle_deg"].to_numpy()
-    recorded["setup"] = rows["recording"].to_numpy()
-    recorded["friction_coefficient"] = rows["friction_coefficient"].to_numpy()
-    recorded["friction_coefficient_sd"] = rows["friction_coefficient_sd_own"].to_numpy()
     every, own = (rows[f"friction_coefficient_{name}"].to_numpy() for name in ("sd", "sd_own"))
-    shared = np.sqrt(np.maximum(every**2 - own**2, 0.0))
-    recording = {
-        "quantity": "friction_coefficient",
-        "includes": f'tooth friction of single contact, recentre = "{file.friction.recentre}"',
-        "noise": {"setup_absolute": float(np.median(shared))},
+    columns = {
+        "roll_angle_deg": rows["pinion_roll_angle_deg"].to_numpy(),
+        "setup": rows["recording"].to_numpy(),
+        "friction_coefficient": rows["friction_coefficient"].to_numpy(),
+        "friction_coefficient_sd": own,
     }
-    return case_draft(path, "mesh_friction", ("gears", "lubricant", "surfaces"), recording, recorded)
+    noise = {"setup_absolute": float(np.median(np.sqrt(np.maximum(every**2 - own**2, 0.0))))}
+    includes = f'tooth friction of single contact, recentre = "{file.friction.recentre}"'
+    return mesh_friction_case(file, path, rows["recording"].to_numpy(), columns, includes, noise)
 
 
 EVALUATION = Evaluation(

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 from pydantic import Field
 
-from mixedlub.evaluate.evaluation import CaseDraft, Curve, Evaluated, Evaluation, Panel, case_draft
+from mixedlub.evaluate.evaluation import CaseDraft, Curve, Evaluated, Evaluation, Panel, case_draft, check_surfaces
 from mixedlub.evaluate.uncertainty import Errors, combined, ends_of, interval
 from mixedlub.kinds import columns
 from mixedlub.kinds.disc import reduced_radius
@@ -267,8 +267,7 @@ def _case(file: TwoDiscFile, path: Path, table: Table, frame: pd.DataFrame, erro
     if file.lubricant is None or not file.surfaces or any(name not in table for name in SURFACES):
         return None
     for name in SURFACES:
-        for surface in sorted({str(one) for one in table[name]} - file.surfaces.keys()):
-            raise InputError("the file has no such surface", where=f"{table.source}: {name}", value=surface)
+        check_surfaces(file.surfaces, table[name], f"{table.source}: {name}")
     recorded = {"run": table["run"], **{name: frame[name].to_numpy() for name in CONDITIONS}}
     recorded |= {name: table[name] for name in SURFACES}
     recorded |= {"setup": np.full(len(table), "rig"), "friction_coefficient": frame["friction_coefficient"].to_numpy()}
