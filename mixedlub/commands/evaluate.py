@@ -58,6 +58,5 @@ def command(
         echo(f"  {line}")
     echo(f"{', '.join(f'{name}.csv' for name in found.tables)} in {folder}")
     if found.case is not None:
-        echo(
-            f"a case of kind {found.case.system['kind']}: mixedlub diagnose {folder / CASE} --out out/diagnose/{file.stem}"
-        )
+        echo(f"a case of kind {found.case.system['kind']}:")
+        echo(f"  mixedlub diagnose {folder / CASE} --out out/diagnose/{file.stem}")

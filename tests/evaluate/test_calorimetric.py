@@ -8,9 +8,10 @@ import pytest
 
 from mixedlub.cli import main
 from mixedlub.evaluate import evaluate
+from mixedlub.evaluate.calorimetric import loss_factor
 from mixedlub.evaluate.load_stages import LoadStages, split_loss
 from mixedlub.evaluate.uncertainty import Errors
-from mixedlub.gear import RigidSharing, local_loss_factor, mesh
+from mixedlub.gear import LdpSharing, RigidSharing, local_loss_factor, mesh
 from mixedlub.rig.build import gear_pair
 from mixedlub.schema.system_file import Gears
 from mixedlub.validation.benches import calorimetric as bench
@@ -44,6 +45,27 @@ def test_planted_friction_and_idle_loss_are_found_where_nothing_is_uncertain(tmp
     assert found.tables["loss"]["mean_friction"].to_numpy() == pytest.approx(real["friction"], rel=1e-3)
     idle = found.tables["series"].sort_values("speed_rpm")["load_independent_loss_W"]
     assert idle.to_numpy() == pytest.approx(np.sort(real["idle"].unique()).repeat(2), rel=1e-3)
+
+
+@pytest.mark.literature(
+    "Measurement and Modelling of Friction for Cylindrical Gears with Pitch Line Velocities up to 100 m/s, figure 6"
+)
+def test_planted_changes_of_the_paper_are_found_again(tmp_path):
+    """Friction falls by 28 % from 20 to 95 m/s, and by 30 % with superfinished flanks."""
+    series = found_of(tmp_path, recorded(7)[0]).tables["series"]
+    speed, ground = series["pitch_line_velocity_m_s"], series["series"].str.contains("ground")
+    slow, fast = (series["mean_friction"][ground & (speed.round() == v)].iloc[0] for v in (20, 95))
+    smooth = series["mean_friction"][~ground & (speed.round() == 95)].iloc[0]
+    assert fast / slow - 1.0 == pytest.approx(-0.28, abs=0.05)
+    assert smooth / fast - 1.0 == pytest.approx(-0.30, abs=0.05)
+
+
+def test_the_loss_factor_of_many_torques_is_that_of_each():
+    pair = gear_pair(Gears.model_validate({"preset": "fzg_c"}))
+    shared = LdpSharing(tip_relief=(30e-6, 30e-6), relief_length=(2e-3, 2e-3))
+    torque = np.linspace(50.0, 400.0, 31)
+    direct = local_loss_factor(mesh(pair, shared), torque[7:8])
+    assert loss_factor(pair, shared, torque)[7] == pytest.approx(float(direct[0]), rel=2e-3)
 
 
 def stages(power, factor):
