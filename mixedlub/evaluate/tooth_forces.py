@@ -139,18 +139,7 @@ def _solved(
         common[f"zero of gauge {gauge + 1}"] = inverse[:, :, gauge] * meters.zero
     slopes = np.concatenate([influence.slope(roll[:, t], t) for t in teeth], axis=2)
     common[ROLL_ANGLE] = np.einsum("mfg,mgh,mh->mf", inverse, slopes, forces) * meters.roll_angle
-    for number in range(meshing.teeth):
-        for gauge in range(noise.size):
-            where = np.flatnonzero(teeth == number)
-            for mode in range(influence.modes.shape[2]):
-                label = f"influence {number + 1}, {gauge + 1}, {mode + 1}"
-                common[label] = np.zeros_like(forces)
-            if where.size:
-                own = forces[:, 2 * where[0] : 2 * where[0] + 2]
-                strain = np.einsum("mpf,mf->mp", influence.errors(roll[:, number], number, gauge), own)
-                for mode in range(influence.modes.shape[2]):
-                    moved = -inverse[:, :, gauge] * strain[:, mode, None]
-                    common[f"influence {number + 1}, {gauge + 1}, {mode + 1}"] = moved
+    common |= _influence_errors(influence, meshing.teeth, teeth, roll, inverse, forces)
     which = np.arange(forces.shape[1]) % 2
     for index, label in enumerate(("normal", "friction")):
         common[f"{label} forces of the calibration"] = np.where(which == index, forces, 0.0) * meters.calibration_force
@@ -165,6 +154,23 @@ def _solved(
         value=forces.reshape(-1, 2),
         errors={label: moved.reshape(-1, 2) for label, moved in common.items()},
     )
+
+
+def _influence_errors(
+    influence: Influence, every: int, teeth: np.ndarray, roll: np.ndarray, inverse: np.ndarray, forces: np.ndarray
+) -> dict[str, np.ndarray]:
+    """What errors of influence coefficients add to the forces (M, 2 K): nothing where their tooth does not touch."""
+    found = {}
+    for tooth in range(every):
+        where = np.flatnonzero(teeth == tooth)
+        for gauge in range(inverse.shape[2]):
+            strain = np.zeros((roll.shape[0], influence.modes.shape[2]))
+            if where.size:
+                own = forces[:, 2 * where[0] : 2 * where[0] + 2]
+                strain = np.einsum("mpf,mf->mp", influence.errors(roll[:, tooth], tooth, gauge), own)
+            for mode, moved in enumerate(strain.T, start=1):
+                found[f"influence {tooth + 1}, {gauge + 1}, {mode}"] = -inverse[:, :, gauge] * moved[:, None]
+    return found
 
 
 def _joined(parts: list[Forces]) -> Forces:
