@@ -93,6 +93,8 @@ class StrainGaugeFile(SpurGearFile):
     friction: FrictionSection = key("how forces become friction", FrictionSection())
 
 
+LARGEST_DEVIATION = 0.1
+"""Judgement. Deviation of the normal force from torque over base radius that gear dynamics seldom explain."""
 CALIBRATION = (
     Column("tooth", "whole", at_least=1.0, meaning="tooth that is loaded, 1 for the one that enters the mesh first"),
     Column("roll_angle_deg", at_least=0.0, at_most=90.0, meaning="roll angle of the loaded tooth"),
@@ -166,6 +168,7 @@ def run(file: StrainGaugeFile, path: Path) -> Evaluated:
         turned = one.roll_angle_at_pulse_deg + meshing.direction * average.angle
         blurred = replace(meshing, margin=max(meshing.margin, average.spacing))
         forces = forces_of(influence, blurred, turned, average, meters, name)
+        notes += _doubts(name, forces, one.torque_Nm / pair.base_radius[0])
         offset = [np.nan]
         if file.friction.recentre == "mean":
             forces, offset = recentred(forces, meshing, file.friction.asymmetry_sd, name)
@@ -183,6 +186,16 @@ def run(file: StrainGaugeFile, path: Path) -> Evaluated:
     return Evaluated(
         file.title, tables, _figures(file, tables), tuple(_lines(tables["recordings"])), tuple(notes), case
     )
+
+
+def _doubts(name: str, forces: Forces, nominal: float) -> Iterator[str]:
+    """Refuse a recording whose teeth pull, and doubt one whose normal force is not that of the torque."""
+    ratio = float(forces.value[forces.single, 0].mean() / nominal) if forces.single.any() else np.nan
+    if ratio <= 0.0:
+        rule = "normal force of single contact over that of the torque: check gauges.wheel, roll_angle_at_pulse_deg and"
+        raise InputError(f"{rule} the signs of the calibration", where=f"recordings.{name}", value=round(ratio, 4))
+    if abs(ratio - 1.0) > LARGEST_DEVIATION:
+        yield f"recording {name}: normal force {ratio:.3g} of torque over base radius; the source has it within 3 %"
 
 
 def _table(name: str, one: MeshRecording, forces: Forces, pair: GearPair, wheel: str) -> pd.DataFrame:

@@ -72,6 +72,11 @@ def test_the_note_says_how_far_friction_was_moved(tmp_path):
     assert "moved by" in found_of(tmp_path, calibration, recording).notes[-1]
 
 
+def test_a_normal_force_beside_that_of_the_torque_is_doubted(tmp_path):
+    calibration, recording, _ = bench.recorded(bench.Bench(turns=4, torque=50.0), TOOTH, 1)
+    assert any("normal force 0.6" in text for text in found_of(tmp_path, calibration, recording).notes)
+
+
 def test_the_average_reduces_what_is_not_synchronous_by_the_root_of_the_turns():
     random = np.random.default_rng(0)
     turn, angle = np.repeat(np.arange(64), 200), np.tile(np.arange(200) * 1.8, 64)
@@ -115,6 +120,7 @@ BAD = [
     ),
     (lambda row: True, {"gauges": {"largest_condition": 5.0}}, "condition number of the influence matrix"),
     (lambda row: True, {"gauges": {"columns": ["compressive_1_um_m"]}}, "gauges.columns"),
+    (lambda row: True, {"gauges": {"wheel": "pinion"}}, "normal force of single contact over that of the torque"),
     (lambda row: True, {"gears": {"helix_angle_deg": 5.0}}, "gears.helix_angle_deg = 5"),
     (
         lambda row: True,
