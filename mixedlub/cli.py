@@ -19,6 +19,7 @@ from mixedlub.commands import (
     condense,
     diagnose,
     effects,
+    efficiency,
     ehl,
     evaluate,
     factors,
@@ -28,6 +29,7 @@ from mixedlub.commands import (
     kinds,
     law_errors,
     new,
+    parts,
     profile,
     prove,
     simulate,
@@ -56,6 +58,7 @@ COMMANDS = (
     factors,
     simulate,
     gear,
+    efficiency,
     ehl,
     law_errors,
     condense,
@@ -67,6 +70,7 @@ COMMANDS = (
     kinds,
     effects,
     friction_laws,
+    parts,
     prove,
 )
 

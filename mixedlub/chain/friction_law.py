@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import inspect
-import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 import numpy as np
 
+from mixedlub.chain.documented import Coefficient, Documented, described
 from mixedlub.chain.effect import entry
 from mixedlub.chain.model import Law
 from mixedlub.chain.plain_text import plain_equation
@@ -26,22 +26,12 @@ _SHOWN = {"m^2/s": ("mm²/s", 1e6), "m": ("µm", 1e6), "Pa": ("MPa", 1e-6)}
 _OWN_UNIT = {"load_intensity": ("N/mm²", 1e-6), "radius": ("mm", 1e3), "pitch_radius": ("mm", 1e3)}
 
 
-@dataclass(frozen=True)
-class Coefficient:
-    """A number of a law that its user gives; one without a default must be given."""
-
-    name: str
-    unit: str
-    meaning: str
-    default: float | None = None
-
-
 Limits = tuple[str | None, str, float]
 """Coefficients that are the ends of a range, the lower one zero where none is, and their factor to SI."""
 
 
 @dataclass(frozen=True, repr=False)
-class FrictionLaw:
+class FrictionLaw(Documented):
     """A friction law: the function, where it is evaluated, and what is known of its validity.
 
     ``valid`` is the range of its source in SI, by quantity of the glossary; ``limits`` names the coefficients that are
@@ -73,38 +63,6 @@ class FrictionLaw:
     def reads(self) -> tuple[str, ...]:
         """Quantities of the glossary that the law needs."""
         return tuple(n for n, a in inspect.signature(self.law).parameters.items() if a.kind is not a.KEYWORD_ONLY)
-
-    @property
-    def summary(self) -> str:
-        """The first line of its docstring."""
-        return self._text.split("\n")[0]
-
-    @property
-    def source(self) -> str:
-        """The source that its docstring names."""
-        found = re.search(r"Source: (.*?)(?:\n\s*\n|\Z)", self._text, re.DOTALL)
-        return " ".join(found[1].split()) if found else ""
-
-    @property
-    def equation(self) -> str:
-        """Its equation in TeX."""
-        found = re.search(r"\.\. math::(.*?)(?:\n\s*\n|\Z)", self._text, re.DOTALL)
-        return " ".join(found[1].split()) if found else ""
-
-    @property
-    def _text(self) -> str:
-        return (inspect.getdoc(self.law) or "").partition(">>>")[0]
-
-    @property
-    def remarks(self) -> str:
-        """What its docstring says between equation and source."""
-        _, _, below = self._text.partition(".. math::")
-        _, _, rest = below.partition("\n\n")
-        return " ".join(rest.partition("Source: ")[0].split())
-
-    def values(self, given: Mapping[str, float]) -> dict[str, Any]:
-        """The coefficients, defaults where none are given."""
-        return {c.name: given.get(c.name, c.default) for c in self.coefficients}
 
     def with_coefficients(self, given: Mapping[str, float]) -> Law:
         """The law with its coefficients fixed, defaults where none are given; a number becomes an array of one."""
@@ -159,7 +117,7 @@ class FrictionLaw:
             "source": self.source,
         }
         facts = [entry(f"  {name}", text) for name, text in parts.items() if text]
-        numbers = [entry(f"  {c.name}", _described(c), 2 + max(16, len(c.name) + 2)) for c in self.coefficients]
+        numbers = [entry(f"  {c.name}", described(c), 2 + max(16, len(c.name) + 2)) for c in self.coefficients]
         head = entry(f"{self.name}: ", self.summary, indent=2)
         return "\n".join([head, "", *facts, *(["", "coefficients", *numbers] if numbers else [])])
 
@@ -189,11 +147,6 @@ def _range(name: str, low: float, high: float) -> str:
     elif low <= 0.0:
         ends = f"up to {high * factor:.4g}"
     return f"{name.replace('_', ' ')} {ends} {unit.removeprefix('-')}".rstrip()
-
-
-def _described(c: Coefficient) -> str:
-    unit = f" ({c.unit})" if c.unit not in ("", "-") else ""
-    return f"{c.meaning}{unit}; " + ("must be given" if c.default is None else f"left out: {c.default:g}")
 
 
 REGISTRY: dict[str, FrictionLaw] = {}

@@ -79,7 +79,7 @@ def _compare(
     from mixedlub.schema.toml_file import read_toml
     from mixedlub.study import read_study
     from mixedlub.study.friction_comparison import compared, mesh_table
-    from mixedlub.study.friction_options import few
+    from mixedlub.chain.documented import few
 
     formats = chosen_formats(format_)
     with input_errors_from(str(study)):

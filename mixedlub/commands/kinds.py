@@ -16,11 +16,12 @@ def command(
     kind: Annotated[
         str | None,
         typer.Argument(
-            metavar="KIND", help="One kind, `study`, `gear` or a method of `evaluate`; all kinds when left out."
+            metavar="KIND",
+            help="One kind, `study`, `gear`, `efficiency` or a method of `evaluate`; all kinds when left out.",
         ),
     ] = None,
 ) -> None:
-    """The format of a case, kind by kind, of a study, of gears or of an evaluation.
+    """The format of a case, kind by kind, of a study, of gears, of a gearbox or of an evaluation.
 
     Columns of recordings.csv and keys of the file, with unit, default, allowed values and meaning.
     """

@@ -1,4 +1,4 @@
-"""`mixedlub new`: a template of a study, its factors, a case, contacts, gears, an evaluation; it runs unchanged."""
+"""`mixedlub new`: a template of a study, its factors, a case, contacts, gears, a gearbox, an evaluation; it runs."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 NAME = "new"
 EXAMPLE = "mixedlub new study --out out/my_study"
 
-STUDY, FACTORS, CASE, EHL, GEAR = "study", "factors", "case", "ehl", "gear"
-TEMPLATES = (STUDY, FACTORS, CASE, EHL, GEAR)
+STUDY, FACTORS, CASE, EHL, GEAR, EFFICIENCY = "study", "factors", "case", "ehl", "gear", "efficiency"
+TEMPLATES = (STUDY, FACTORS, CASE, EHL, GEAR, EFFICIENCY)
 KIND = "gear_pair"
 """Default kind of a case."""
 ROWS = 40
@@ -41,7 +41,9 @@ Given = Mapping[str, Any]
 def command(
     what: Annotated[
         str,
-        typer.Argument(metavar="WHAT", help="study, factors, case, ehl, gear, or a method of `mixedlub evaluate`."),
+        typer.Argument(
+            metavar="WHAT", help="study, factors, case, ehl, gear, efficiency, or a method of `mixedlub evaluate`."
+        ),
     ],
     kind: Annotated[
         str | None, typer.Option(metavar="KIND", help=f"Kind of case; default {KIND}. `mixedlub kinds` lists them.")
@@ -50,7 +52,7 @@ def command(
         Path | None, typer.Option(metavar="DIR", parser=named_folder, help="Folder to make; default out/new/WHAT.")
     ] = None,
 ) -> None:
-    """A study, its factors, a case, line contacts (ehl), gears or an evaluation to start from.
+    """A study, its factors, a case, line contacts (ehl), gears, a gearbox (efficiency) or an evaluation to start from.
 
     A template with the values of an example rig: optional keys are comments with their meaning. It runs unchanged; the
     readings of a case are synthetic, from the base model.
@@ -61,7 +63,7 @@ def command(
         raise InputError(f"no such template; {nearest(what, (*TEMPLATES, *EVALUATIONS))}", where="what", value=what)
     if what != CASE and kind is not None:
         raise InputError("only a case has a kind", where="--kind", value=kind)
-    makers = {STUDY: study_files, FACTORS: factor_files, EHL: ehl_files, GEAR: gear_files}
+    makers = {STUDY: study_files, FACTORS: factor_files, EHL: ehl_files, GEAR: gear_files, EFFICIENCY: efficiency_files}
     if what in makers:
         files = makers[what]()
     else:
@@ -78,6 +80,7 @@ def command(
         FACTORS: (folder / "factors.toml", ("factors",)),
         EHL: (folder / "contacts.toml", ("ehl",)),
         GEAR: (folder / "gear.toml", ("gear",)),
+        EFFICIENCY: (folder / "efficiency.toml", ("efficiency",)),
         CASE: (folder, ("check", "diagnose")),
     }.get(what, (folder / f"{what}.toml", (f"evaluate {what}",)))
     echo(f"{' and '.join(files)} in {folder}, with the numbers of an example: put your own in their place, then")
@@ -139,6 +142,13 @@ def evaluation_files(name: str) -> dict[str, str]:
     text = "\n".join(_lines(one.file, one.example, wanted)) + "\n"
     recorded = {path.name: path.read_text(encoding="utf-8") for path in sorted(one.folder.glob("*.csv"))}
     return {f"{name}.toml": text, **recorded}
+
+
+def efficiency_files() -> dict[str, str]:
+    """A file of a gearbox of two stages."""
+    from mixedlub.efficiency import EXAMPLE
+
+    return {"efficiency.toml": EXAMPLE.read_text(encoding="utf-8")}
 
 
 def study_text() -> str:

@@ -12,15 +12,19 @@ GRAVITY = 9.81
 
 
 def windage_diab(
-    wheel_radius: np.ndarray, wheel_speed: np.ndarray, face_width: np.ndarray, wheel_teeth: np.ndarray
+    wheel_radius: np.ndarray,
+    wheel_speed: np.ndarray,
+    face_width: np.ndarray,
+    wheel_teeth: np.ndarray,
+    clearance_ratio: float = 0.5,
 ) -> np.ndarray:
-    r"""Power of one free wheel against clean air (W).
+    r"""Power of one wheel against clean air (W).
 
     .. math:: P = \tfrac12 C_t \rho\omega^3 R^5,\quad
-              C_t = 60\,Re^{-0.25}\left(\tfrac bR\right)^{0.8} z^{-0.4}\,\bigl[2\,(\tfrac12)^{0.56}\bigr],\quad
+              C_t = 60\,Re^{-0.25}\left(\tfrac bR\right)^{0.8} z^{-0.4}\,2\left(\tfrac hR\right)^{0.56},\quad
               Re = \rho\omega R^2/\mu
 
-    for walls no nearer than half a radius. Within a factor 1.6 of the formulas of Dawson and of Anderson and
+    with walls on both sides at h, no more than half a radius, as for a free wheel. Within a factor 1.6 of the formulas of Dawson and of Anderson and
     Loewenthal. The density and viscosity of air make the form belong to SI.
     Source: Y. Diab, F. Ville, P. Velex, C. Changenet, J. Mech. Des. 126 (2004) 903; constants as quoted in reviews.
 
@@ -28,7 +32,7 @@ def windage_diab(
     110.0
     """
     reynolds = AIR_DENSITY * wheel_speed * wheel_radius**2 / AIR_VISCOSITY
-    shape = power(face_width / wheel_radius, 0.8) * power(wheel_teeth, -0.4) * 2.0 * 0.5**0.56
+    shape = power(face_width / wheel_radius, 0.8) * power(wheel_teeth, -0.4) * 2.0 * clearance_ratio**0.56
     return 30.0 * power(reynolds, -0.25) * shape * AIR_DENSITY * wheel_speed**3 * wheel_radius**5
 
 
@@ -42,13 +46,16 @@ def churning_changenet_velex(
     oil_density: np.ndarray,
     viscosity_exponent: float = 0.21,
     gravity_exponent: float = 0.60,
+    immersion_ratio: float = 0.5,
+    volume_ratio: float = 1.5,
 ) -> np.ndarray:
-    r"""Power of one wheel that dips half its radius into oil (W), at low centrifugal acceleration.
+    r"""Power of one wheel that dips into oil (W), at low centrifugal acceleration.
 
     .. math:: P = \tfrac12\rho\omega^3R^3 S_m C_m,\quad
               C_m = 1.366\left(\tfrac hD\right)^{0.45}\left(\tfrac{V_0}{D^3}\right)^{0.1} Fr^{-0.6} Re^{-0.21}
 
-    with Fr = omega^2 R/g, Re = omega R^2/nu, h = R/2, V_0 = 1.5 D^3 and the wetted area S_m of flanks, rim and teeth.
+    with Fr = omega^2 R/g, Re = omega R^2/nu and the wetted area S_m of flanks, rim and teeth; h/R and V_0/D^3 are the
+    ratios of immersion and oil volume.
     Other exponents pivot at Fr 70, Re 16 000 (a 100 mm wheel at 1100 rpm in oil of 20 mm^2/s). Published methods
     differ by a factor 6 at 5000 rpm. The acceleration of gravity makes the form belong to m/s^2. Valid where
     `bath_acceleration` is below 750 m/s^2; the authors' other law, of another form, holds above 1250 m/s^2.
@@ -60,13 +67,35 @@ def churning_changenet_velex(
     """
     froude = wheel_speed**2 * wheel_radius / GRAVITY
     reynolds = wheel_speed * wheel_radius**2 * oil_density / viscosity
-    wetted = np.arccos(0.5)
+    depth = 0.5 * immersion_ratio
+    drag = 1.366 * depth**0.45 * volume_ratio**0.1 * power(froude, -0.60) * power(reynolds, -0.21)
+    drag = drag * power(froude / 70.0, 0.60 - gravity_exponent) * power(reynolds / 16e3, 0.21 - viscosity_exponent)
+    area = wetted_area(wheel_radius, face_width, gear_module, wheel_teeth, immersion_ratio)
+    return 0.5 * oil_density * wheel_speed**3 * wheel_radius**3 * area * drag
+
+
+def wetted_area(
+    wheel_radius: np.ndarray,
+    face_width: np.ndarray,
+    gear_module: np.ndarray,
+    wheel_teeth: np.ndarray,
+    immersion_ratio: float,
+) -> np.ndarray:
+    r"""Area of a wheel in the oil (m^2): sides, rim and flanks of the teeth, which are 2.25 modules high.
+
+    .. math:: S_m = R^2(2\theta - \sin2\theta) + D b\,\theta + \frac{2 z b h_t\theta}{\pi\cos\alpha},\quad
+              \cos\theta = 1 - h/R
+
+    Source: C. Changenet, P. Velex, J. Mech. Des. 129 (2007) 128.
+
+    >>> round(float(wetted_area(0.05, 0.02, 4e-3, 0.0, 1.0)) * 1e4, 2)   # half of both sides and of the rim, cm^2
+    109.96
+    """
+    wetted = np.arccos(1.0 - immersion_ratio)
     sides = wheel_radius**2 * (2.0 * wetted - np.sin(2.0 * wetted))
     rim = 2.0 * wheel_radius * face_width * wetted
     teeth = 2.0 * wheel_teeth * face_width * 2.25 * gear_module * wetted / (np.pi * np.cos(np.radians(20.0)))
-    drag = 1.366 * 0.25**0.45 * 1.5**0.1 * power(froude, -0.60) * power(reynolds, -0.21)
-    drag = drag * power(froude / 70.0, 0.60 - gravity_exponent) * power(reynolds / 16e3, 0.21 - viscosity_exponent)
-    return 0.5 * oil_density * wheel_speed**3 * wheel_radius**3 * (sides + rim + teeth) * drag
+    return sides + rim + teeth
 
 
 def bath_acceleration(
@@ -82,15 +111,19 @@ def bath_acceleration(
     return gear_speed**2 * power(gear_radius * face_width * gear_module, 1.0 / 3.0)
 
 
-def _oil_motion(viscosity: np.ndarray, oil_density: np.ndarray, wheel_speed: np.ndarray) -> np.ndarray:
+def oil_motion(viscosity: np.ndarray, oil_density: np.ndarray, wheel_speed: np.ndarray) -> np.ndarray:
     """Kinematic viscosity times speed as bearing catalogues count it, mm^2/s rpm."""
     return viscosity / oil_density * 1e6 * wheel_speed * 30.0 / np.pi
 
 
 def palmgren_idle_torque(
-    viscosity: np.ndarray, oil_density: np.ndarray, wheel_speed: np.ndarray, bearing_diameter: np.ndarray
+    viscosity: np.ndarray,
+    oil_density: np.ndarray,
+    wheel_speed: np.ndarray,
+    bearing_diameter: np.ndarray,
+    factor: float = 2.0,
 ) -> np.ndarray:
-    r"""Torque of one unloaded rolling bearing (N m), f_0 = 2 of a deep-groove ball bearing in an oil bath.
+    r"""Torque of one unloaded rolling bearing (N m); f_0 = 2 is a deep-groove ball bearing in an oil bath.
 
     .. math:: M_0 = 10^{-7} f_0 (\nu n)^{2/3} d_m^3\ \text{N mm},\quad \nu n \ge 2000\ \text{mm}^2/\text{s rpm}
 
@@ -101,12 +134,14 @@ def palmgren_idle_torque(
     >>> round(float(torque) * 1e3, 1)   # 2e-7 x 22 500^(2/3) x 45^3 N mm
     14.5
     """
-    motion = _oil_motion(viscosity, oil_density, wheel_speed)
-    return 2e-7 * (motion**4 + 2000.0**4) ** (1.0 / 6.0) * (bearing_diameter * 1e3) ** 3 * 1e-3
+    motion = oil_motion(viscosity, oil_density, wheel_speed)
+    return factor * 1e-7 * (motion**4 + 2000.0**4) ** (1.0 / 6.0) * (bearing_diameter * 1e3) ** 3 * 1e-3
 
 
-def palmgren_load_torque(load: np.ndarray, bearing_diameter: np.ndarray) -> np.ndarray:
-    r"""Torque that load adds in one rolling bearing (N m), :math:`M_1 = f_1 P_1 d_m` with f_1 = 0.0003.
+def palmgren_load_torque(
+    load: np.ndarray, bearing_diameter: np.ndarray, factor: float | np.ndarray = 3e-4
+) -> np.ndarray:
+    r"""Torque that load adds in one rolling bearing (N m), :math:`M_1 = f_1 P_1 d_m`, f_1 = 0.0003 where not given.
 
     Cylindrical roller bearings have f_1 of 0.0002 to 0.0004 by their series; ball bearings 0.0006 to 0.0009 times the
     root of their static load over its rating. Source: A. Palmgren, Grundlagen der Waelzlagertechnik, 1964; ISO 15312.
@@ -114,7 +149,7 @@ def palmgren_load_torque(load: np.ndarray, bearing_diameter: np.ndarray) -> np.n
     >>> round(float(palmgren_load_torque(1500.0, 0.045)) * 1e3, 2)
     20.25
     """
-    return 3e-4 * load * bearing_diameter
+    return factor * load * bearing_diameter
 
 
 def bearing_asperity_share(
@@ -130,7 +165,7 @@ def bearing_asperity_share(
     >>> round(float(bearing_asperity_share(20e-6 * 850, 850.0, 1000 * np.pi / 30, 0.045)), 2)   # exp(-1.23)
     0.29
     """
-    motion = _oil_motion(viscosity, oil_density, wheel_speed)
+    motion = oil_motion(viscosity, oil_density, wheel_speed)
     return np.exp(-2.6e-8 * np.abs(motion) ** 1.4 * bearing_diameter * 1e3)
 
 

@@ -12,6 +12,7 @@ from typing import Any, Literal, get_args, get_origin
 
 import numpy as np
 
+from mixedlub.efficiency.file import EfficiencyFile
 from mixedlub.evaluate import EVALUATIONS
 from mixedlub.kinds import KINDS, Kind, kind
 from mixedlub.schema.section import FileTable, Key, Section, plain, tables
@@ -27,7 +28,9 @@ WIDTH = 80
 """Columns of a terminal."""
 LEAST_MEANING_WIDTH = 22
 """Columns that a meaning needs to the right of its key: about three words."""
-STUDY, GEAR = "study", "gear"
+STUDY = "study"
+FILES = {STUDY: StudyFile, "gear": GearAnalysisFile, "efficiency": EfficiencyFile}
+"""Files other than cases, by the command that reads them."""
 EVERY_CASE = ("", "uncertainty", "recording")
 """Tables of `system.toml` that do not depend on its kind."""
 _GAP = "  "
@@ -37,19 +40,18 @@ Row = tuple[str, ...]
 
 
 def kinds_text(name: str | None = None) -> str:
-    """The format of one kind of case, of all of them, of a study, of gears, or of an evaluation."""
-    if name in (STUDY, GEAR):
-        file = StudyFile if name == STUDY else GearAnalysisFile
-        return "\n".join(_file("a study file" if name == STUDY else "a file of `mixedlub gear`", file))
+    """The format of one kind of case, of all of them, of a study file, or of a file of another command."""
+    if name in FILES:
+        return "\n".join(_file("a study file" if name == STUDY else f"a file of `mixedlub {name}`", FILES[name]))
     if name is not None and name in EVALUATIONS:
         return "\n".join(_evaluation(name))
     if name is not None and name not in KINDS:
-        known = (*KINDS, STUDY, GEAR, *EVALUATIONS)
+        known = (*KINDS, *FILES, *EVALUATIONS)
         raise InputError(f"no such kind; {nearest(name, known)}", where="KIND", value=name)
     chosen = [kind(n) for n in (KINDS if name is None else (name,))]
     taken = {*EVERY_CASE, *(section for k in chosen for section in (*k.sections, *k.uses))}
     lines = [] if name else [f"{len(KINDS)} kinds of case. `mixedlub kinds KIND` shows one, with the keys it takes;"]
-    lines += [] if name else ["`mixedlub kinds study` or `gear` shows the keys of such a file."]
+    lines += [] if name else ["`mixedlub kinds study`, `gear` or `efficiency` shows the keys of such a file."]
     for k in chosen:
         lines += ["", *_kind(k)]
     lines += ["", "columns of every kind (conditions.csv has all but the reading)", *aligned(common_rows())]

@@ -5,41 +5,22 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mixedlub import friction
+from mixedlub.chain.documented import check_given
 from mixedlub.chain.model import Model, available
 from mixedlub.effects import known_in
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.schema.findings import finding, report
 from mixedlub.study.options import ignored, study_chain
 from mixedlub.study.schema import Options, StudyFile
-from profiles.errors import InputError, nearest
+from profiles.errors import InputError
 
 PLACE = "options.friction_coefficients"
-MOST_NAMED = 4
-"""Most coefficients that a message names."""
-
-
-def few(names: Sequence[str]) -> str:
-    """Names in a message, the first ones of many.
-
-    >>> few(["a", "b"]), few(list("abcdef"))
-    ('a, b', 'a, b, c, d and 2 more')
-    """
-    others = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
-    return ", ".join(names[:MOST_NAMED]) + others
 
 
 def check_coefficients(options: Options, place: str = PLACE) -> None:
     """Refuse coefficients that the law does not have, and those that it lacks; report the defaults taken."""
     law, given = friction.find(options.friction), options.friction_coefficients
-    known = {c.name: c for c in law.coefficients}
-    for name in given:
-        if name not in known:
-            hint = nearest(name, known) if known else "it has none"
-            raise InputError(f"no such coefficient of {law.name}; {hint}", where=place, value=name)
-    missing = [c.name for c in law.coefficients if c.default is None and c.name not in given]
-    if missing:
-        rule = f"needs {few(missing)}: no source prints them; `mixedlub friction-laws {law.name}` says what they are"
-        raise InputError(rule, where=place, value=dict(given) or None)
+    check_given(law, given, place, f"mixedlub friction-laws {law.name}")
     assumed = [f"{c.name} = {c.default:g}" for c in law.coefficients if c.name not in given]
     if assumed:
         report(finding("friction_coefficient_assumed", f"{', '.join(assumed)} taken for {law.name}", place))

@@ -313,19 +313,27 @@ def condition_inputs(file: StudyFile, pair: GearPair, points: Mesh, oil: Lubrica
     temperature = np.array(levels.oil_temperature_C) + ZERO_CELSIUS + options.bulk_temperature_rise_K
     torque = torques.reshape(1, 1, -1, 1, 1)
     speed = speeds.reshape(1, 1, 1, -1, 1)
-    share = points.load_share(torques)
-    mean = points.weight * points.face_fraction * (share > LEAST_SHARE)
+    share = points.load_share(torques)[None, None, :, None, :]
     return {
-        **motion_inputs(points, torque, speed),
+        **mesh_inputs(points, share, torque, speed),
         **oil.inputs(temperature.reshape(1, -1, 1, 1, 1)),
         "oil_temperature": temperature.reshape(1, -1, 1, 1, 1),
-        "load_share": share[None, None, :, None, :],
-        "mean_weight": (mean / mean.sum(axis=-1, keepdims=True))[None, None, :, None, :],
-        "mean_sliding_speed": pair.end_mean_sliding * pair.base_radius[0] * speed,
         "working_pressure_angle": pair.working_pressure_angle,
         "base_helix_angle": pair.base_helix_angle,
         "boundary_friction": file.boundary_friction,
         **({} if options.hardness_GPa is None else {"hardness": options.hardness_GPa * 1e9}),
+    }
+
+
+def mesh_inputs(points: Mesh, share: np.ndarray, torque: np.ndarray, speed: np.ndarray) -> dict[str, Any]:
+    """Inputs of a mesh by its load share; torque (N m) and speed (rad/s) of the pinion end in an axis of one."""
+    pair = points.pair
+    mean = points.weight * points.face_fraction * (share > LEAST_SHARE)
+    return {
+        **motion_inputs(points, torque, speed),
+        "load_share": share,
+        "mean_weight": mean / mean.sum(axis=-1, keepdims=True),
+        "mean_sliding_speed": pair.end_mean_sliding * pair.base_radius[0] * speed,
     }
 
 

@@ -1,0 +1,11 @@
+"""Efficiency of gear stages in series: losses by origin over torque and speed, over the mesh cycle and over duty cycles."""
+
+from importlib.resources import files
+
+from mixedlub.efficiency.gearbox import Gearbox, Losses
+from mixedlub.efficiency.prepare import read_gearbox
+
+EXAMPLE = files("mixedlub.efficiency").joinpath("example.toml")
+"""A gearbox of two stages, as `mixedlub new efficiency` writes it."""
+
+__all__ = ["EXAMPLE", "Gearbox", "Losses", "read_gearbox"]

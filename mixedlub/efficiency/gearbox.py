@@ -1,0 +1,155 @@
+"""Stages in series: what each loses at its input, and what is left for the next."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from mixedlub.efficiency.file import EfficiencyFile
+from mixedlub.efficiency.meshes import mesh_losses
+from mixedlub.efficiency.parts import KINDS, StagePart
+from mixedlub.gear import GearPair
+from mixedlub.study import Study
+from mixedlub.study.columns import VALID
+
+MESH = ("sliding", "rolling")
+"""Origins of the loss of a mesh."""
+ORIGINS = (*MESH, *KINDS)
+"""Origins of loss in the order of tables and figures."""
+EXCEEDED = "losses_exceed_input"
+"""Validity of a condition whose losses are above its input power: the gearbox does not turn by itself."""
+Origin = tuple[str, str, str]
+"""Stage, origin, and name of the part; empty for the mesh."""
+
+
+@dataclass(frozen=True, eq=False)
+class StageModel:
+    """A gear pair with its oil and its parts, in SI."""
+
+    name: str
+    driving: str
+    study: Study
+    oil: Mapping[str, float]
+    parts: tuple[StagePart, ...]
+
+    @property
+    def pair(self) -> GearPair:
+        """Its gears."""
+        return self.study.pair
+
+    @property
+    def ratio(self) -> float:
+        """Speed of its driving over that of its driven side."""
+        return self.pair.gear_ratio if self.driving == "pinion" else 1.0 / self.pair.gear_ratio
+
+    @property
+    def driven(self) -> str:
+        """The side that is driven."""
+        return "gear" if self.driving == "pinion" else "pinion"
+
+    def of_pinion(self, torque: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Torque and speed of the pinion from those of the driving side."""
+        if self.driving == "pinion":
+            return torque, speed
+        return torque / self.pair.gear_ratio, speed * self.pair.gear_ratio
+
+    def losses(self, torque: np.ndarray, speed: np.ndarray) -> tuple[dict[Origin, np.ndarray], list[str]]:
+        """Losses (W) by origin at torques (N m) and speeds (rad/s) of the driving side, and validity."""
+        own = self.of_pinion(torque, speed)
+        sliding, rolling, validity = mesh_losses(self.study, *own)
+        found = {(self.name, "sliding", ""): sliding, (self.name, "rolling", ""): rolling}
+        for part in self.parts:
+            found[self.name, part.table, part.name] = part.loss(self.pair, self.oil, *own)
+        return found, validity
+
+
+@dataclass(frozen=True, eq=False)
+class Losses:
+    """Losses of a gearbox at N conditions of its input, in SI.
+
+    ``torque`` and ``speed`` are those of the input, ``by_origin`` the losses (W), ``validity`` words a condition.
+    """
+
+    gearbox: Gearbox
+    torque: np.ndarray
+    speed: np.ndarray
+    by_origin: Mapping[Origin, np.ndarray]
+    validity: tuple[str, ...]
+
+    @cached_property
+    def input_power(self) -> np.ndarray:
+        """Torque times speed of the input (W)."""
+        return self.torque * self.speed
+
+    def total(self, *, stage: str | None = None, origins: tuple[str, ...] = ORIGINS) -> np.ndarray:
+        """Sum of the losses (W) of some origins, of one stage or of all."""
+        chosen = [v for (name, origin, _), v in self.by_origin.items() if origin in origins and stage in (None, name)]
+        return np.sum(chosen, axis=0) if chosen else np.zeros_like(self.torque)
+
+    @cached_property
+    def output_power(self) -> np.ndarray:
+        """What is left at the output (W); below 0 it must be brought in there."""
+        return self.input_power - self.total()
+
+    def efficiency(self, origins: tuple[str, ...] = ORIGINS) -> np.ndarray:
+        """Share of the input power that losses of some origins leave; NaN without torque or without output.
+
+        Of the origins `MESH` it is the tooth efficiency, of all that of the gearbox.
+        """
+        drives = (self.input_power > 0.0) & (self.output_power > 0.0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(drives, 1.0 - self.total(origins=origins) / self.input_power, np.nan)
+
+
+@dataclass(frozen=True, eq=False)
+class Gearbox:
+    """Stages in the order of the power."""
+
+    file: EfficiencyFile
+    stages: tuple[StageModel, ...]
+
+    @property
+    def ratio(self) -> float:
+        """Input over output speed."""
+        return float(np.prod([stage.ratio for stage in self.stages]))
+
+    def losses(self, torque: np.ndarray, speed: np.ndarray) -> Losses:
+        """Losses at torques (N m) and speeds (rad/s) of the input, one entry a condition.
+
+        A stage takes in what the one before it leaves; where nothing is left, it turns without torque.
+        """
+        power, turning = torque * speed, speed
+        found: dict[Origin, np.ndarray] = {}
+        words: list[list[str]] = []
+        for stage in self.stages:
+            own, validity = stage.losses(np.maximum(power, 0.0) / turning, turning)
+            found |= own
+            words.append([] if len(self.stages) == 1 else [f"{stage.name}:{v}" if v != VALID else v for v in validity])
+            words[-1] = words[-1] or validity
+            power = power - np.sum(list(own.values()), axis=0)
+            turning = turning / stage.ratio
+        exceeded = (power < 0.0) & (torque > 0.0)
+        validity = [_together([*each, EXCEEDED] if over else each) for *each, over in zip(*words, exceeded, strict=True)]
+        return Losses(self, torque, speed, found, tuple(validity))
+
+    def map(self) -> Losses:
+        """Losses at every torque and speed of the file, speeds fastest."""
+        levels = self.file.conditions
+        torque, speed = np.meshgrid(levels.torque_Nm, np.array(levels.speed_rpm) * np.pi / 30.0, indexing="ij")
+        return self.losses(torque.ravel(), speed.ravel())
+
+    def at_cycle(self) -> Losses:
+        """Losses at the condition of the mesh cycle; a torque above 0."""
+        cycle, levels = self.file.cycle, self.file.conditions
+        torque = max(levels.torque_Nm) if cycle.torque_Nm is None else cycle.torque_Nm
+        speed = max(levels.speed_rpm) if cycle.speed_rpm is None else cycle.speed_rpm
+        return self.losses(np.array([torque]), np.array([speed * np.pi / 30.0]))
+
+
+def _together(words: list[str]) -> str:
+    """The words of all stages; `valid` where all are."""
+    told = [word for word in dict.fromkeys(words) if word != VALID]
+    return "; ".join(told) or VALID

@@ -1,0 +1,107 @@
+"""Loss and tooth efficiency of a stage as its mesh turns by one base pitch."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from mixedlub.chain.model import Model
+from mixedlub.efficiency.gearbox import Gearbox, Losses, StageModel
+from mixedlub.gear import at_roll_angle
+from mixedlub.study.plan import mesh_inputs
+
+POINT = ("friction", "rolling_force")
+
+
+@dataclass(frozen=True, eq=False)
+class MeshCycle:
+    """Loss of a stage over one base pitch, in SI.
+
+    ``phase`` (in base pitches), ``sliding`` and ``rolling`` (W) have one entry a position; ``input_power`` is that of
+    the stage.
+    """
+
+    stage: StageModel
+    torque: float
+    speed: float
+    phase: np.ndarray
+    sliding: np.ndarray
+    rolling: np.ndarray
+
+    @property
+    def input_power(self) -> float:
+        """Power that its driving side takes in (W)."""
+        return self.torque * self.speed
+
+    @property
+    def efficiency(self) -> np.ndarray:
+        """Tooth efficiency at each position; its mean is that of the cycle."""
+        return 1.0 - (self.sliding + self.rolling) / self.input_power
+
+    @property
+    def roll_angle(self) -> np.ndarray:
+        """Roll angle of the pinion (rad), from where a tooth pair comes into contact at the front of the face."""
+        pair = self.stage.pair
+        return (pair.path_start + self.phase * pair.base_pitch) / pair.base_radius[0]
+
+
+def mesh_cycle(stage: StageModel, torque: float, speed: float, positions: int) -> MeshCycle:
+    r"""Loss of a mesh at equidistant positions over one base pitch; torque (N m) and speed (rad/s) of its driving side.
+
+    .. math:: P(\varphi) = \sum_q \left[\mu W |u_1 - u_2| + F_r' \ell\,(u_1 + u_2)\right],\quad
+              \eta(\varphi) = 1 - \frac{P(\varphi)}{T\omega}
+
+    over all slices q of all tooth pairs in contact. Source: H. Xu, PhD thesis, Ohio State University, 2005, chapter 2,
+    in the power form.
+    """
+    pair = stage.pair
+    step = pair.base_pitch / positions
+    count = math.ceil((pair.path_end - pair.path_start) / step - 0.5 - 1e-9)
+    place = pair.path_start + step * (np.arange(count) + 0.5)
+    slices = stage.study.mesh.slices
+    sliding, rolling = _at_points(stage, torque, speed, place / pair.base_radius[0])
+    whole = -(-count // positions) * positions
+    both = np.zeros((2, whole, slices))
+    both[:, :count] = np.array([sliding, rolling]).reshape(2, count, slices)
+    both = both.reshape(2, -1, positions, slices).sum(axis=1)
+    phase = (np.arange(positions) + 0.5) / positions
+    # Slices of a helical pair follow the front of the face by whole and broken parts of a base pitch.
+    lag = stage.study.mesh.face_position[:slices] * math.tan(abs(pair.base_helix_angle)) / pair.base_pitch
+    total = np.zeros((2, positions))
+    for index in range(slices):
+        for one in range(2):
+            total[one] += np.interp((phase + lag[index]) % 1.0, phase, both[one, :, index], period=1.0)
+    return MeshCycle(stage, torque, speed, phase, *total)
+
+
+def _at_points(stage: StageModel, torque: float, speed: float, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Sliding and rolling loss (W) of the slices of one tooth pair at roll angles (rad)."""
+    study, plan = stage.study, stage.study.plan
+    points = at_roll_angle(stage.pair, study.rig.sharing, angles, slices=study.mesh.slices)
+    own, turning = stage.of_pinion(np.array([torque]), np.array([speed]))
+    share = points.load_share(own)[None, None, :, None, :]
+    with np.errstate(all="ignore"):  # points of no quadrature have no weights for a mean
+        inputs = {**plan.inputs, **mesh_inputs(points, share, own.reshape(1, 1, 1, 1, 1), turning.reshape(1, 1, 1, 1, 1))}
+        model = Model(plan.chain(plan.options), tuple(inputs), POINT, plan.effects)
+        state = model(inputs, plan.parameters)
+    friction, resistance = (np.broadcast_to(np.ravel(state[name]), points.position.shape) for name in POINT)
+    force = (share * inputs["transmitted_force"]).ravel()
+    oblique = math.cos(stage.pair.base_helix_angle)
+    sliding = friction * force * inputs["sliding_speed"].ravel() / oblique
+    rolling = resistance * points.contact_width * 2.0 * inputs["entrainment_speed"].ravel() / oblique
+    return sliding, rolling
+
+
+def mesh_cycles(gearbox: Gearbox, at: Losses) -> list[MeshCycle]:
+    """The cycles of all stages at one condition of the input; each takes in what the one before it leaves."""
+    power, speed = float(at.input_power[0]), float(at.speed[0])
+    found = []
+    for stage in gearbox.stages:
+        if power <= 0.0:
+            break
+        found.append(mesh_cycle(stage, power / speed, speed, gearbox.file.cycle.positions))
+        power -= float(at.total(stage=stage.name)[0])
+        speed /= stage.ratio
+    return found

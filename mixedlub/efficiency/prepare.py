@@ -1,0 +1,78 @@
+"""From a file of `mixedlub efficiency` to the stages that compute."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from mixedlub.chain.effect import Effect
+from mixedlub.efficiency.file import EfficiencyFile, Stage
+from mixedlub.efficiency.gearbox import Gearbox, StageModel
+from mixedlub.efficiency.parts import oil_state, parts_of
+from mixedlub.laws.oil import ZERO_CELSIUS
+from mixedlub.schema.findings import Finding
+from mixedlub.schema.toml_file import parse, read_toml
+from mixedlub.study import Study, read_study
+from mixedlub.study.origins import losing
+from mixedlub.study.schema import Conditions, Options, Pairings, StudyFile
+from mixedlub.slots import SLIDING_POWER
+from profiles.errors import InputError
+
+UNREAD = ("bands", "conditions_of", "averaging")
+"""Options of a study that a stage has no use for."""
+SHARED = ("boundary_friction", "gears", "lubricant", "options", "effects")
+"""Tables that a stage and a study have in common."""
+
+
+def read_gearbox(path: Path, file: EfficiencyFile | None = None) -> tuple[Gearbox, tuple[Finding, ...]]:
+    """The gearbox of a file, checked, and what a reader should know of it; ``file`` replaces the content of the file."""
+    file = parse(EfficiencyFile, read_toml(path), str(path)) if file is None else file
+    stages, notes = [], []
+    for name, section in file.stages.items():
+        where = f"stages.{name}"
+        study = _study(path, where, section)
+        _check_effects(study.effects, where)
+        oil = oil_state(study.oil, section.oil_temperature_C + ZERO_CELSIUS)
+        parts = tuple(parts_of(section, f"{path}: {where}"))
+        stages.append(StageModel(name, section.driving, study, oil, parts))
+        notes += study.notes
+    return Gearbox(file, tuple(stages)), tuple(notes)
+
+
+def _study(path: Path, where: str, stage: Stage) -> Study:
+    """The mesh of a stage as a study of one pairing and one condition."""
+    for option in UNREAD:
+        if option in stage.options.model_fields_set and getattr(stage.options, option) != _default(option):
+            raise InputError(
+                "has no meaning for a stage; leave it out",
+                where=f"{path}: {where}.options.{option}",
+                value=getattr(stage.options, option),
+            )
+    condition = Conditions(torque_Nm=(1.0,), speed_rpm=(100.0,), oil_temperature_C=(stage.oil_temperature_C,))
+    given = {
+        "schema": "mixedlub-study/1",
+        **{name: getattr(stage, name) for name in SHARED},
+        "surfaces": {"pinion": stage.surfaces.pinion, "gear": stage.surfaces.gear},
+        "pairings": Pairings(pinion=("pinion",), gear=("gear",)),
+        "conditions": condition,
+    }
+    file = StudyFile.model_validate(given)
+    try:
+        return read_study(path, file)
+    except InputError as error:
+        place = error.where.removeprefix(f"{path}: ").removeprefix(str(path))
+        inside = f"{where}.{place}" if place else where
+        raise InputError(error.rule, where=f"{path}: {inside}", value=error.value) from None
+
+
+def _default(option: str) -> object:
+    return SLIDING_POWER.default if option == SLIDING_POWER.option else Options.model_fields[option].default
+
+
+def _check_effects(effects: tuple[Effect, ...], where: str) -> None:
+    """Refuse effects that are losses outside the mesh, which the tables of parts have."""
+    for name in losing(effects):
+        raise InputError(
+            "is a loss outside the mesh; give the part itself: bearings, seals, windage, churning, pocketing, jets or "
+            "others of the stage",
+            where=f"{where}.effects.{name}",
+        )

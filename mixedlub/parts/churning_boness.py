@@ -1,0 +1,38 @@
+"""Churning of a disc in oil after Boness."""
+
+import numpy as np
+
+from mixedlub.chain.part_law import part_law
+from mixedlub.laws.churning import churning_boness as law
+
+
+@part_law(
+    "churning",
+    "boness",
+    "Boness",
+    sources=1,
+    status="constants as quoted in reviews; the torque that Luke and Olver print for this law is met",
+)
+def churning_boness(
+    wheel_radius: float,
+    shaft_speed: np.ndarray,
+    face_width: float,
+    viscosity: np.ndarray,
+    oil_density: np.ndarray,
+    immersion: float,
+) -> np.ndarray:
+    r"""Power of a wheel, taken as a disc, that dips into oil (W): laminar, turbulent and beyond.
+
+    .. math:: P = \tfrac12\rho\omega^3R^3 S_m C_m,\quad C_m = \frac{20}{Re},\ 8.6\times10^{-4} Re^{1/3},\
+              \frac{5\times10^8}{Re^2}
+
+    for Re below 2000, to 1e5, and above.
+
+    Source: R. J. Boness, Proc. Int. Symp. Gearing, 1989.
+
+    >>> torque = churning_boness(0.108, 150 * np.pi, 0.0245, 160e-6 * 850, 850.0, 0.054) / (150 * np.pi)
+    >>> round(float(torque))
+    79
+    """
+    radius = np.asarray(wheel_radius)
+    return law(radius, shaft_speed, np.asarray(face_width), viscosity, oil_density, immersion / wheel_radius)

@@ -1,0 +1,48 @@
+"""Churning of a wheel in oil after Changenet and Velex."""
+
+import numpy as np
+
+from mixedlub.chain.part_law import part_law
+from mixedlub.laws.churning import HIGH, LOW, churning_at_high_speed
+from mixedlub.laws.drag import bath_acceleration, churning_changenet_velex
+
+
+@part_law(
+    "churning",
+    "changenet_velex",
+    "Changenet and Velex",
+    sources=0,
+    status="constants as quoted in reviews, not confirmed by the paper",
+)
+def churning_both(
+    wheel_radius: float,
+    shaft_speed: np.ndarray,
+    face_width: float,
+    gear_module: float,
+    wheel_teeth: float,
+    viscosity: np.ndarray,
+    oil_density: np.ndarray,
+    immersion: float,
+    oil_volume: float,
+) -> np.ndarray:
+    r"""Power of a wheel that dips into oil (W), by either law and between them.
+
+    .. math:: P = \tfrac12\rho\omega^3R^3 S_m C_m,\quad \gamma = \omega^2 (R\,b\,m_n)^{1/3}
+
+    C_m of low speed for gamma below 750 m/s^2, of high speed above 1250 m/s^2, linear in gamma between.
+
+    Source: C. Changenet, P. Velex, J. Mech. Des. 129 (2007) 128.
+
+    >>> wheel = dict(face_width=0.02, gear_module=4e-3, wheel_teeth=25.0, immersion=0.025, oil_volume=1.5e-3)
+    >>> oil = dict(viscosity=50e-6 * 850, oil_density=850.0)
+    >>> speed = np.array([1000.0, 5000.0]) * np.pi / 30
+    >>> churning_both(0.05, speed, **wheel, **oil).round(1).tolist()   # 5.8 by the first law, 76 by the second
+    [5.8, 76.2]
+    """
+    radius, width, size = np.asarray(wheel_radius), np.asarray(face_width), np.asarray(gear_module)
+    ratios = immersion / wheel_radius, oil_volume / (2.0 * wheel_radius) ** 3
+    wheel = (radius, shaft_speed, width, size, np.asarray(wheel_teeth))
+    slow = churning_changenet_velex(*wheel, viscosity, oil_density, 0.21, 0.60, *ratios)
+    fast = churning_at_high_speed(*wheel, oil_density, *ratios)
+    share = np.clip((bath_acceleration(shaft_speed, radius, width, size) - LOW) / (HIGH - LOW), 0.0, 1.0)
+    return (1.0 - share) * slow + share * fast

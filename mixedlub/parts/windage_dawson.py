@@ -1,0 +1,41 @@
+"""Windage of a wheel after Dawson."""
+
+import numpy as np
+
+from mixedlub.chain.documented import Coefficient
+from mixedlub.chain.part_law import part_law
+from mixedlub.laws.windage import windage_dawson as law
+
+
+@part_law(
+    "windage",
+    "dawson",
+    "Dawson",
+    sources=0,
+    status="constants as quoted in reviews, not confirmed by the paper; within a factor 1.6 of the other laws",
+    coefficients=(
+        Coefficient("oil_mist", "-", "Phi, factor of oil in the air; 1 in clean air", 1.0),
+        Coefficient("space", "-", "lambda, factor of the space around the wheel; 1 of a free wheel", 1.0),
+    ),
+)
+def windage_dawson(
+    root_diameter: float,
+    shaft_speed: np.ndarray,
+    face_width: float,
+    gear_module: float,
+    *,
+    oil_mist: float,
+    space: float,
+) -> np.ndarray:
+    r"""Power of a wheel against air (W), with the cube of speed nearly.
+
+    .. math:: P = 10^{-17} n^{2.9}\left(0.16 D^{3.9} + D^{2.9} b^{0.75} m^{1.15}\right)\Phi\lambda
+
+    with n in rpm and root diameter D, face width b and module m in mm; not for D below about 100 mm.
+
+    Source: P. H. Dawson, Proc. IMechE A 198 (1984) 51.
+
+    >>> round(float(windage_dawson(0.090, 10_000 * np.pi / 30, 0.020, 4e-3, oil_mist=1.0, space=1.0)))
+    113
+    """
+    return law(np.asarray(root_diameter), shaft_speed, np.asarray(face_width), np.asarray(gear_module), oil_mist, space)

@@ -1,0 +1,22 @@
+"""Windage of a wheel after Maurer."""
+
+import numpy as np
+
+from mixedlub.chain.part_law import part_law
+from mixedlub.laws.windage import windage_maurer as law
+
+
+@part_law("windage", "maurer", "Maurer", sources=1, status="constants as one public program has them")
+def windage_maurer(wheel_radius: float, shaft_speed: np.ndarray, face_width: float, gear_module: float) -> np.ndarray:
+    r"""Power of a wheel against air (W).
+
+    .. math:: P = 1.37\times10^{-9} v^{1.9} d^{1.6} b^{0.52} m^{0.69}\,\omega
+
+    with the pitch line speed v in m/s and pitch diameter d, face width b and module m in mm.
+
+    Source: J. Maurer, thesis, University of Stuttgart, 1994.
+
+    >>> round(float(windage_maurer(0.050, 10_000 * np.pi / 30, 0.020, 4e-3)))
+    52
+    """
+    return law(np.asarray(wheel_radius), shaft_speed, np.asarray(face_width), np.asarray(gear_module))
