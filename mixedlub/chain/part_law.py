@@ -1,4 +1,4 @@
-"""What a law of a machine part is: one published formula for the drag of a bearing, a seal or a wheel in oil and air."""
+"""What a law of a machine part is: one published formula for the drag of a bearing, a seal or a wheel."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`mixedlub efficiency`: losses by origin and efficiency of gear stages, over torque, speed, mesh cycle and duty cycle."""
+"""`mixedlub efficiency`: losses by origin and efficiency of gear stages."""
 
 from __future__ import annotations
 
@@ -99,9 +99,10 @@ def _print(made: dict[str, pd.DataFrame], at: Losses) -> None:
         )
     if "duty_summary" in made:
         row = made["duty_summary"].to_dict("records")[0]
+        mean = row["mean_gearbox_efficiency_percent"]
         echo(
             f"  duty cycle: {row['input_energy_kWh']:.5g} kWh in {row['duration_h']:.5g} h, "
-            f"{row['loss_energy_kWh']:.4g} kWh lost, mean gearbox efficiency {row['mean_gearbox_efficiency_percent']:.3f} %"
+            f"{row['loss_energy_kWh']:.4g} kWh lost, mean gearbox efficiency {mean:.3f} %"
         )
 
 

@@ -1,4 +1,4 @@
-"""Efficiency of gear stages in series: losses by origin over torque and speed, over the mesh cycle and over duty cycles."""
+"""Efficiency of gear stages in series: losses by origin, maps, mesh cycle and duty cycle."""
 
 from importlib.resources import files
 

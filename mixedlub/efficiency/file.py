@@ -8,11 +8,10 @@ from pydantic import Field, model_validator
 
 from mixedlub.chain.part_law import GIVES, Kind
 from mixedlub.parts import of_kind
-from mixedlub.schema.section import Number, Section, Whole, check_keys_of, key
+from mixedlub.schema.section import Number, NumberOrName, Section, Whole, key
 from mixedlub.schema.surface_file import SurfaceSection
 from mixedlub.schema.system_file import Gears, Lubricant
 from mixedlub.study.schema import Numbers, Options
-from mixedlub.schema.section import NumberOrName
 
 Side = Literal["pinion", "gear"]
 SIDES = {"pinion": "first entry of [gears]", "gear": "second entry"}
@@ -70,9 +69,7 @@ class Churning(Part):
     law: str = _law("churning", "changenet_velex")  # type: ignore[assignment]
     wheel: Side = key("the wheel that dips into oil", example="gear", values=SIDES)
     immersion_mm: Positive | None = key("depth below the oil level; only laws that read it", None, example=20.0)
-    oil_volume_l: Positive | None = key(
-        "volume of the oil; only laws that read it", None, example=2.0, unit="l"
-    )
+    oil_volume_l: Positive | None = key("volume of the oil; only laws that read it", None, example=2.0, unit="l")
 
 
 class Pocketing(Part):
@@ -159,7 +156,9 @@ class Cycle(Section):
 class EfficiencyFile(Section):
     """Gear stages in series, the map of conditions, and a duty cycle."""
 
-    schema_: Literal["mixedlub-efficiency/1"] = key("format of the file", example="mixedlub-efficiency/1", alias="schema")
+    schema_: Literal["mixedlub-efficiency/1"] = key(
+        "format of the file", example="mixedlub-efficiency/1", alias="schema"
+    )
     title: str = key("title of the figures", "Gearbox", example="Two-stage gearbox")
     conditions: Conditions = key(
         "the map: every torque at every speed; each a list, or { from = LOW, to = HIGH, count = N }"

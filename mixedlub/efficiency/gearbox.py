@@ -14,6 +14,7 @@ from mixedlub.efficiency.parts import KINDS, StagePart
 from mixedlub.gear import GearPair
 from mixedlub.study import Study
 from mixedlub.study.columns import VALID
+from profiles.errors import InputError
 
 MESH = ("sliding", "rolling")
 """Origins of the loss of a mesh."""
@@ -63,7 +64,17 @@ class StageModel:
         found = {(self.name, "sliding", ""): sliding, (self.name, "rolling", ""): rolling}
         for part in self.parts:
             found[self.name, part.table, part.name] = part.loss(self.pair, self.oil, *own)
+        for (_, origin, name), value in found.items():
+            self._check_finite(".".join(filter(None, (origin, name))), value, torque, speed)
         return found, validity
+
+    def _check_finite(self, place: str, loss: np.ndarray, torque: np.ndarray, speed: np.ndarray) -> None:
+        """Refuse numbers at which a law leaves its domain."""
+        wrong = np.flatnonzero(~np.isfinite(loss))
+        if wrong.size:
+            at = f"{torque[wrong[0]]:.4g} N m and {speed[wrong[0]] * 30.0 / np.pi:.4g} rpm of its driving side"
+            rule = f"no finite loss at {at}; look for a number far out of range"
+            raise InputError(rule, where=f"stages.{self.name}.{place}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +143,9 @@ class Gearbox:
             power = power - np.sum(list(own.values()), axis=0)
             turning = turning / stage.ratio
         exceeded = (power < 0.0) & (torque > 0.0)
-        validity = [_together([*each, EXCEEDED] if over else each) for *each, over in zip(*words, exceeded, strict=True)]
+        validity = [
+            _together([*each, EXCEEDED] if over else each) for *each, over in zip(*words, exceeded, strict=True)
+        ]
         return Losses(self, torque, speed, found, tuple(validity))
 
     def map(self) -> Losses:

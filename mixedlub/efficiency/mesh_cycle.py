@@ -9,10 +9,12 @@ import numpy as np
 
 from mixedlub.chain.model import Model
 from mixedlub.efficiency.gearbox import Gearbox, Losses, StageModel
-from mixedlub.gear import at_roll_angle
+from mixedlub.gear import LdpSharing, Mesh, at_roll_angle
 from mixedlub.study.plan import mesh_inputs
 
 POINT = ("friction", "rolling_force")
+FINE = 128
+"""Slices of oblique lines that no contact problem makes costly: each is on the path as a whole or not at all."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,15 +62,16 @@ def mesh_cycle(stage: StageModel, torque: float, speed: float, positions: int) -
     step = pair.base_pitch / positions
     count = math.ceil((pair.path_end - pair.path_start) / step - 0.5 - 1e-9)
     place = pair.path_start + step * (np.arange(count) + 0.5)
-    slices = stage.study.mesh.slices
-    sliding, rolling = _at_points(stage, torque, speed, place / pair.base_radius[0])
+    points = at_roll_angle(pair, stage.study.rig.sharing, place / pair.base_radius[0], slices=_slices(stage))
+    slices = points.slices
+    sliding, rolling = _at_points(stage, torque, speed, points)
     whole = -(-count // positions) * positions
     both = np.zeros((2, whole, slices))
     both[:, :count] = np.array([sliding, rolling]).reshape(2, count, slices)
     both = both.reshape(2, -1, positions, slices).sum(axis=1)
     phase = (np.arange(positions) + 0.5) / positions
     # Slices of a helical pair follow the front of the face by whole and broken parts of a base pitch.
-    lag = stage.study.mesh.face_position[:slices] * math.tan(abs(pair.base_helix_angle)) / pair.base_pitch
+    lag = points.face_position[:slices] * math.tan(abs(pair.base_helix_angle)) / pair.base_pitch
     total = np.zeros((2, positions))
     for index in range(slices):
         for one in range(2):
@@ -76,14 +79,24 @@ def mesh_cycle(stage: StageModel, torque: float, speed: float, positions: int) -
     return MeshCycle(stage, torque, speed, phase, *total)
 
 
-def _at_points(stage: StageModel, torque: float, speed: float, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Sliding and rolling loss (W) of the slices of one tooth pair at roll angles (rad)."""
-    study, plan = stage.study, stage.study.plan
-    points = at_roll_angle(stage.pair, study.rig.sharing, angles, slices=study.mesh.slices)
+def _slices(stage: StageModel) -> int:
+    """Slices across the face: those of the study, more of oblique lines where they cost little."""
+    study = stage.study
+    if study.plan.spur or study.file.options.face_slices or isinstance(study.rig.sharing, LdpSharing):
+        return study.mesh.slices
+    return FINE
+
+
+def _at_points(stage: StageModel, torque: float, speed: float, points: Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Sliding and rolling loss (W) of one tooth pair at each slice of contact points."""
+    plan = stage.study.plan
     own, turning = stage.of_pinion(np.array([torque]), np.array([speed]))
     share = points.load_share(own)[None, None, :, None, :]
     with np.errstate(all="ignore"):  # points of no quadrature have no weights for a mean
-        inputs = {**plan.inputs, **mesh_inputs(points, share, own.reshape(1, 1, 1, 1, 1), turning.reshape(1, 1, 1, 1, 1))}
+        inputs = {
+            **plan.inputs,
+            **mesh_inputs(points, share, own.reshape(1, 1, 1, 1, 1), turning.reshape(1, 1, 1, 1, 1)),
+        }
         model = Model(plan.chain(plan.options), tuple(inputs), POINT, plan.effects)
         state = model(inputs, plan.parameters)
     friction, resistance = (np.broadcast_to(np.ravel(state[name]), points.position.shape) for name in POINT)

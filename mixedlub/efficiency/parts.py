@@ -10,7 +10,7 @@ import numpy as np
 
 from mixedlub.chain.documented import check_given
 from mixedlub.chain.part_law import GIVEN, Kind, PartLaw
-from mixedlub.efficiency.file import Bearing, Part, Stage
+from mixedlub.efficiency.file import Bearing, Churning, Part, Stage
 from mixedlub.gear import GearPair
 from mixedlub.parts import find, series_coefficients
 from mixedlub.rig.lubricant import Lubricant
@@ -65,11 +65,15 @@ class StagePart:
         }
 
 
-def parts_of(stage: Stage, where: str) -> Iterator[StagePart]:
+def parts_of(stage: Stage, pair: GearPair, where: str) -> Iterator[StagePart]:
     """The parts of a stage, each checked against its law; ``where`` is the place of the stage."""
     for table in KINDS:
         for name, section in getattr(stage, table).items():
-            yield _part(table, name, section, f"{where}.{table}.{name}")
+            place = f"{where}.{table}.{name}"
+            part = _part(table, name, section, place)
+            if isinstance(section, Churning):
+                _check_immersion(section, pair.operating_radius[part.side], place)
+            yield part
 
 
 def _part(table: str, name: str, section: Part, where: str) -> StagePart:
@@ -92,7 +96,16 @@ def _check_keys(law: PartLaw, section: Part, where: str) -> None:
             raise InputError(f"{law.name} needs {key}", where=where)
     loads = OF_LOAD if {"radial_load", "axial_load"} & set(law.reads) else set()
     for key in sorted(section.model_fields_set - OF_ANY_LAW - loads - set(law.keys)):
-        raise InputError(f"{law.name} does not read it; leave it out", where=f"{where}.{key}", value=getattr(section, key))
+        raise InputError(
+            f"{law.name} does not read it; leave it out", where=f"{where}.{key}", value=getattr(section, key)
+        )
+
+
+def _check_immersion(section: Churning, radius: float, where: str) -> None:
+    """Refuse a wheel that is deeper in the oil than it is high."""
+    if section.immersion_mm is not None and section.immersion_mm > 2e3 * radius:
+        rule = f"is above the pitch diameter of the {section.wheel}, {2e3 * radius:.4g} mm"
+        raise InputError(rule, where=f"{where}.immersion_mm", value=section.immersion_mm)
 
 
 def _check_stated(name: str, section: Part, where: str) -> None:

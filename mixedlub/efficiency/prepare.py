@@ -11,10 +11,10 @@ from mixedlub.efficiency.parts import oil_state, parts_of
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.schema.findings import Finding
 from mixedlub.schema.toml_file import parse, read_toml
+from mixedlub.slots import SLIDING_POWER
 from mixedlub.study import Study, read_study
 from mixedlub.study.origins import losing
 from mixedlub.study.schema import Conditions, Options, Pairings, StudyFile
-from mixedlub.slots import SLIDING_POWER
 from profiles.errors import InputError
 
 UNREAD = ("bands", "conditions_of", "averaging")
@@ -24,15 +24,16 @@ SHARED = ("boundary_friction", "gears", "lubricant", "options", "effects")
 
 
 def read_gearbox(path: Path, file: EfficiencyFile | None = None) -> tuple[Gearbox, tuple[Finding, ...]]:
-    """The gearbox of a file, checked, and what a reader should know of it; ``file`` replaces the content of the file."""
+    """The gearbox of a file, checked, with notes for its reader; ``file`` replaces the content of the file."""
     file = parse(EfficiencyFile, read_toml(path), str(path)) if file is None else file
-    stages, notes = [], []
+    stages: list[StageModel] = []
+    notes: list[Finding] = []
     for name, section in file.stages.items():
         where = f"stages.{name}"
         study = _study(path, where, section)
         _check_effects(study.effects, where)
         oil = oil_state(study.oil, section.oil_temperature_C + ZERO_CELSIUS)
-        parts = tuple(parts_of(section, f"{path}: {where}"))
+        parts = tuple(parts_of(section, study.pair, f"{path}: {where}"))
         stages.append(StageModel(name, section.driving, study, oil, parts))
         notes += study.notes
     return Gearbox(file, tuple(stages)), tuple(notes)

@@ -1,4 +1,4 @@
-"""Tables of an efficiency, with units in the names of the columns. Tooth and gearbox efficiency have columns of their own."""
+"""Tables of an efficiency, with units in the names of columns; tooth and gearbox efficiency have one each."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def loss_map(losses: Losses) -> pd.DataFrame:
 
 
 def breakdown_table(at: Losses) -> pd.DataFrame:
-    """Loss of every mesh and part at one condition, with its law and its share of the total; the last row is the sum."""
+    """Loss of every mesh and part at one condition, with law and share of the total; the last row is the sum."""
     parts = ((stage, part) for stage in at.gearbox.stages for part in stage.parts)
     laws = {(stage.name, part.table, part.name): part.law.title for stage, part in parts}
     total = float(at.total()[0])
@@ -128,7 +128,7 @@ def duty_table(losses: Losses, hours: np.ndarray) -> pd.DataFrame:
 
 
 def duty_summary(losses: Losses, hours: np.ndarray) -> pd.DataFrame:
-    """One row: energies of a duty cycle in all and by origin, and its mean efficiencies, which are ratios of energies."""
+    """One row: energies of a duty cycle in all and by origin; its mean efficiencies are ratios of energies."""
     to_energy = hours * SECONDS_PER_HOUR / JOULES_PER_KWH
     taken, lost, mesh = (
         float(np.sum(power * to_energy)) for power in (losses.input_power, losses.total(), losses.total(origins=MESH))

@@ -17,8 +17,8 @@ def churning_at_high_speed(
     gear_module: np.ndarray,
     wheel_teeth: np.ndarray,
     oil_density: np.ndarray,
-    immersion_ratio: float,
-    volume_ratio: float,
+    immersion_ratio: np.ndarray,
+    volume_ratio: np.ndarray,
 ) -> np.ndarray:
     r"""Power of one wheel that dips into oil (W), at high centrifugal acceleration, whatever the viscosity.
 
@@ -46,7 +46,7 @@ def churning_boness(
     face_width: np.ndarray,
     viscosity: np.ndarray,
     oil_density: np.ndarray,
-    immersion_ratio: float,
+    immersion_ratio: np.ndarray,
 ) -> np.ndarray:
     r"""Power of a disc that dips into oil (W): laminar, turbulent, and beyond.
 

@@ -24,8 +24,8 @@ def windage_diab(
               C_t = 60\,Re^{-0.25}\left(\tfrac bR\right)^{0.8} z^{-0.4}\,2\left(\tfrac hR\right)^{0.56},\quad
               Re = \rho\omega R^2/\mu
 
-    with walls on both sides at h, no more than half a radius, as for a free wheel. Within a factor 1.6 of the formulas of Dawson and of Anderson and
-    Loewenthal. The density and viscosity of air make the form belong to SI.
+    with walls on both sides at h, no more than half a radius, as for a free wheel. Within a factor 1.6 of the formulas
+    of Dawson and of Anderson and Loewenthal. The density and viscosity of air make the form belong to SI.
     Source: Y. Diab, F. Ville, P. Velex, C. Changenet, J. Mech. Des. 126 (2004) 903; constants as quoted in reviews.
 
     >>> round(float(windage_diab(0.05, 10_000 * np.pi / 30, 0.02, 25.0)), -1)   # Anderson-Loewenthal: 70 W
@@ -46,8 +46,8 @@ def churning_changenet_velex(
     oil_density: np.ndarray,
     viscosity_exponent: float = 0.21,
     gravity_exponent: float = 0.60,
-    immersion_ratio: float = 0.5,
-    volume_ratio: float = 1.5,
+    immersion_ratio: float | np.ndarray = 0.5,
+    volume_ratio: float | np.ndarray = 1.5,
 ) -> np.ndarray:
     r"""Power of one wheel that dips into oil (W), at low centrifugal acceleration.
 
@@ -77,9 +77,9 @@ def churning_changenet_velex(
 def wetted_area(
     wheel_radius: np.ndarray,
     face_width: np.ndarray,
-    gear_module: np.ndarray,
-    wheel_teeth: np.ndarray,
-    immersion_ratio: float,
+    gear_module: np.ndarray | float,
+    wheel_teeth: np.ndarray | float,
+    immersion_ratio: float | np.ndarray,
 ) -> np.ndarray:
     r"""Area of a wheel in the oil (m^2): sides, rim and flanks of the teeth, which are 2.25 modules high.
 

@@ -60,5 +60,7 @@ def windage_maurer(
     52
     """
     speed = wheel_speed * wheel_radius
-    torque = 1.37e-9 * speed**1.9 * (2e3 * wheel_radius) ** 1.6 * (1e3 * face_width) ** 0.52 * (1e3 * gear_module) ** 0.69
+    torque = (
+        1.37e-9 * speed**1.9 * (2e3 * wheel_radius) ** 1.6 * (1e3 * face_width) ** 0.52 * (1e3 * gear_module) ** 0.69
+    )
     return torque * wheel_speed

@@ -14,7 +14,9 @@ from mixedlub.laws.drag import palmgren_idle_torque, palmgren_load_torque
     sources=2,
     status="the form has two sources; f0 and f1 are those of the bearing's catalogue",
     coefficients=(
-        Coefficient("f0", "-", "factor of the torque without load; about 2 for deep groove ball bearings in an oil bath"),
+        Coefficient(
+            "f0", "-", "factor of the torque without load; about 2 for deep groove ball bearings in an oil bath"
+        ),
         Coefficient("f1", "-", "factor of the torque by load; 0.0002 to 0.0004 for cylindrical roller bearings"),
     ),
 )
@@ -24,8 +26,8 @@ def bearing_palmgren(
     oil_density: np.ndarray,
     radial_load: np.ndarray,
     axial_load: np.ndarray,
-    bore_diameter: float,
-    outside_diameter: float,
+    bore_diameter: np.ndarray,
+    outside_diameter: np.ndarray,
     *,
     f0: float,
     f1: float,

@@ -14,12 +14,12 @@ from mixedlub.laws.churning import churning_boness as law
     status="constants as quoted in reviews; the torque that Luke and Olver print for this law is met",
 )
 def churning_boness(
-    wheel_radius: float,
+    wheel_radius: np.ndarray,
     shaft_speed: np.ndarray,
-    face_width: float,
+    face_width: np.ndarray,
     viscosity: np.ndarray,
     oil_density: np.ndarray,
-    immersion: float,
+    immersion: np.ndarray,
 ) -> np.ndarray:
     r"""Power of a wheel, taken as a disc, that dips into oil (W): laminar, turbulent and beyond.
 
@@ -34,5 +34,4 @@ def churning_boness(
     >>> round(float(torque))
     79
     """
-    radius = np.asarray(wheel_radius)
-    return law(radius, shaft_speed, np.asarray(face_width), viscosity, oil_density, immersion / wheel_radius)
+    return law(wheel_radius, shaft_speed, face_width, viscosity, oil_density, immersion / wheel_radius)

@@ -15,15 +15,15 @@ from mixedlub.laws.drag import bath_acceleration, churning_changenet_velex
     status="constants as quoted in reviews, not confirmed by the paper",
 )
 def churning_both(
-    wheel_radius: float,
+    wheel_radius: np.ndarray,
     shaft_speed: np.ndarray,
-    face_width: float,
-    gear_module: float,
-    wheel_teeth: float,
+    face_width: np.ndarray,
+    gear_module: np.ndarray,
+    wheel_teeth: np.ndarray,
     viscosity: np.ndarray,
     oil_density: np.ndarray,
-    immersion: float,
-    oil_volume: float,
+    immersion: np.ndarray,
+    oil_volume: np.ndarray,
 ) -> np.ndarray:
     r"""Power of a wheel that dips into oil (W), by either law and between them.
 
@@ -39,10 +39,10 @@ def churning_both(
     >>> churning_both(0.05, speed, **wheel, **oil).round(1).tolist()   # 5.8 by the first law, 76 by the second
     [5.8, 76.2]
     """
-    radius, width, size = np.asarray(wheel_radius), np.asarray(face_width), np.asarray(gear_module)
     ratios = immersion / wheel_radius, oil_volume / (2.0 * wheel_radius) ** 3
-    wheel = (radius, shaft_speed, width, size, np.asarray(wheel_teeth))
+    wheel = (wheel_radius, shaft_speed, face_width, gear_module, wheel_teeth)
     slow = churning_changenet_velex(*wheel, viscosity, oil_density, 0.21, 0.60, *ratios)
     fast = churning_at_high_speed(*wheel, oil_density, *ratios)
-    share = np.clip((bath_acceleration(shaft_speed, radius, width, size) - LOW) / (HIGH - LOW), 0.0, 1.0)
+    acceleration = bath_acceleration(shaft_speed, wheel_radius, face_width, gear_module)
+    share = np.clip((acceleration - LOW) / (HIGH - LOW), 0.0, 1.0)
     return (1.0 - share) * slow + share * fast

@@ -20,7 +20,7 @@ _PIVOT = 10.0
     ),
 )
 def churning_hoehn(
-    wheel_radius: float, shaft_speed: np.ndarray, *, torque_at_rest: float, growth: float
+    wheel_radius: np.ndarray, shaft_speed: np.ndarray, *, torque_at_rest: float, growth: float
 ) -> np.ndarray:
     r"""Power of a wheel that dips into oil (W) by a torque that grows with its pitch line speed.
 

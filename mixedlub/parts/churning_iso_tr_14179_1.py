@@ -19,11 +19,11 @@ from mixedlub.laws.churning import churning_iso_tr_14179_1 as law
     ),
 )
 def churning_iso_tr_14179_1(
-    tip_diameter: float,
+    tip_diameter: np.ndarray,
     shaft_speed: np.ndarray,
-    face_width: float,
-    gear_module: float,
-    helix_angle: float,
+    face_width: np.ndarray,
+    gear_module: np.ndarray,
+    helix_angle: np.ndarray,
     viscosity: np.ndarray,
     oil_density: np.ndarray,
     *,
@@ -43,5 +43,10 @@ def churning_iso_tr_14179_1(
     >>> round(float(churning_iso_tr_14179_1(0.1, 100 * np.pi, 0.02, 4e-3, 0.0, 50e-6 * 850, 850.0, **given)))
     107
     """
-    wheel = (np.asarray(tip_diameter), shaft_speed, np.asarray(face_width), np.asarray(gear_module / np.cos(helix_angle)))
-    return law(*wheel, np.asarray(helix_angle), viscosity, oil_density, dip_factor, arrangement)
+    wheel = (
+        tip_diameter,
+        shaft_speed,
+        face_width,
+        gear_module / np.cos(helix_angle),
+    )
+    return law(*wheel, helix_angle, viscosity, oil_density, dip_factor, arrangement)

@@ -18,11 +18,11 @@ from mixedlub.chain.part_law import part_law
     ),
 )
 def jet(
-    wheel_radius: float,
+    wheel_radius: np.ndarray,
     shaft_speed: np.ndarray,
     oil_density: np.ndarray,
-    oil_flow: float,
-    jet_speed: float,
+    oil_flow: np.ndarray,
+    jet_speed: np.ndarray,
     *,
     momentum_factor: float,
     against: float,

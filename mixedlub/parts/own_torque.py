@@ -18,9 +18,7 @@ from mixedlub.chain.part_law import part_law
         Coefficient("per_speed_squared", "N m s²/rad²", "what it grows by with the square of angular speed", 0.0),
     ),
 )
-def own_torque(
-    shaft_speed: np.ndarray, *, constant: float, per_speed: float, per_speed_squared: float
-) -> np.ndarray:
+def own_torque(shaft_speed: np.ndarray, *, constant: float, per_speed: float, per_speed_squared: float) -> np.ndarray:
     r"""Torque (N m) as a polynomial of angular speed.
 
     .. math:: T = T_0 + c\,\omega + d\,\omega^2

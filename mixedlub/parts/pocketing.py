@@ -19,10 +19,10 @@ from mixedlub.chain.part_law import part_law
 )
 def pocketing(
     shaft_speed: np.ndarray,
-    wheel_teeth: float,
-    gear_module: float,
-    face_width: float,
-    exit_area: float,
+    wheel_teeth: np.ndarray,
+    gear_module: np.ndarray,
+    face_width: np.ndarray,
+    exit_area: np.ndarray,
     *,
     pocket_volume: float,
     mixture_density: float,

@@ -16,7 +16,7 @@ from mixedlub.chain.part_law import part_law
         Coefficient("torque_per_diameter", "N", "torque over diameter of the lip; quoted: 3.737 Viton, 2.429 Buna N"),
     ),
 )
-def seal_iso_tr_14179_1(seal_diameter: float, *, torque_per_diameter: float) -> np.ndarray:
+def seal_iso_tr_14179_1(seal_diameter: np.ndarray, *, torque_per_diameter: float) -> np.ndarray:
     r"""Torque of one radial lip seal (N m), proportional to the diameter, whatever the speed.
 
     .. math:: T = c\, d
@@ -26,4 +26,4 @@ def seal_iso_tr_14179_1(seal_diameter: float, *, torque_per_diameter: float) -> 
     >>> round(float(seal_iso_tr_14179_1(0.05, torque_per_diameter=3.737)), 3)
     0.187
     """
-    return np.asarray(torque_per_diameter * seal_diameter)
+    return torque_per_diameter * seal_diameter

@@ -16,11 +16,13 @@ _PIVOT = 20e-6
     sources=2,
     status="two public programs have the constant",
     coefficients=(
-        Coefficient("viscous", "-", "exponent of the viscosity over 20 mm²/s; 0 in the report, Linke has it above 0", 0.0),
+        Coefficient(
+            "viscous", "-", "exponent of the viscosity over 20 mm²/s; 0 in the report, Linke has it above 0", 0.0
+        ),
     ),
 )
 def seal_iso_tr_14179_2(
-    viscosity: np.ndarray, oil_density: np.ndarray, seal_diameter: float, *, viscous: float
+    viscosity: np.ndarray, oil_density: np.ndarray, seal_diameter: np.ndarray, *, viscous: float
 ) -> np.ndarray:
     r"""Torque of one radial lip seal (N m), whatever the speed.
 
@@ -34,4 +36,4 @@ def seal_iso_tr_14179_2(
     0.1836
     """
     thinner = (viscosity / (oil_density * _PIVOT)) ** viscous
-    return np.asarray(seal_torque(np.asarray(seal_diameter)) * thinner)
+    return seal_torque(seal_diameter) * thinner

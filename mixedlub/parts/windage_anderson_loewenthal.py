@@ -14,7 +14,7 @@ from mixedlub.laws.windage import windage_anderson_loewenthal as law
     status="constants as quoted in reviews, not confirmed by the report; metric and customary units agree",
 )
 def windage_anderson_loewenthal(
-    wheel_radius: float, shaft_speed: np.ndarray, face_width: float, viscosity: np.ndarray
+    wheel_radius: np.ndarray, shaft_speed: np.ndarray, face_width: np.ndarray, viscosity: np.ndarray
 ) -> np.ndarray:
     r"""Power of a wheel in the mist of a gearbox (W).
 
@@ -27,4 +27,4 @@ def windage_anderson_loewenthal(
     >>> round(float(windage_anderson_loewenthal(0.050, 10_000 * np.pi / 30, 0.020, 0.010)))
     70
     """
-    return law(np.asarray(wheel_radius), shaft_speed, np.asarray(face_width), viscosity)
+    return law(wheel_radius, shaft_speed, face_width, viscosity)

@@ -19,10 +19,10 @@ from mixedlub.laws.windage import windage_dawson as law
     ),
 )
 def windage_dawson(
-    root_diameter: float,
+    root_diameter: np.ndarray,
     shaft_speed: np.ndarray,
-    face_width: float,
-    gear_module: float,
+    face_width: np.ndarray,
+    gear_module: np.ndarray,
     *,
     oil_mist: float,
     space: float,
@@ -38,4 +38,4 @@ def windage_dawson(
     >>> round(float(windage_dawson(0.090, 10_000 * np.pi / 30, 0.020, 4e-3, oil_mist=1.0, space=1.0)))
     113
     """
-    return law(np.asarray(root_diameter), shaft_speed, np.asarray(face_width), np.asarray(gear_module), oil_mist, space)
+    return law(root_diameter, shaft_speed, face_width, gear_module, oil_mist, space)

@@ -18,7 +18,12 @@ from mixedlub.laws.drag import windage_diab as law
     ),
 )
 def windage_diab(
-    wheel_radius: float, shaft_speed: np.ndarray, face_width: float, wheel_teeth: float, *, clearance: float
+    wheel_radius: np.ndarray,
+    shaft_speed: np.ndarray,
+    face_width: np.ndarray,
+    wheel_teeth: np.ndarray,
+    *,
+    clearance: float,
 ) -> np.ndarray:
     r"""Power of a wheel against clean air (W), walls on both sides.
 
@@ -32,4 +37,4 @@ def windage_diab(
     >>> round(float(windage_diab(0.050, 10_000 * np.pi / 30, 0.020, 25.0, clearance=0.5)), -1)
     110.0
     """
-    return law(np.asarray(wheel_radius), shaft_speed, np.asarray(face_width), np.asarray(wheel_teeth), clearance)
+    return law(wheel_radius, shaft_speed, face_width, wheel_teeth, clearance)

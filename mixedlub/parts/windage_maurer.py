@@ -7,7 +7,9 @@ from mixedlub.laws.windage import windage_maurer as law
 
 
 @part_law("windage", "maurer", "Maurer", sources=1, status="constants as one public program has them")
-def windage_maurer(wheel_radius: float, shaft_speed: np.ndarray, face_width: float, gear_module: float) -> np.ndarray:
+def windage_maurer(
+    wheel_radius: np.ndarray, shaft_speed: np.ndarray, face_width: np.ndarray, gear_module: np.ndarray
+) -> np.ndarray:
     r"""Power of a wheel against air (W).
 
     .. math:: P = 1.37\times10^{-9} v^{1.9} d^{1.6} b^{0.52} m^{0.69}\,\omega
@@ -19,4 +21,4 @@ def windage_maurer(wheel_radius: float, shaft_speed: np.ndarray, face_width: flo
     >>> round(float(windage_maurer(0.050, 10_000 * np.pi / 30, 0.020, 4e-3)))
     52
     """
-    return law(np.asarray(wheel_radius), shaft_speed, np.asarray(face_width), np.asarray(gear_module))
+    return law(wheel_radius, shaft_speed, face_width, gear_module)

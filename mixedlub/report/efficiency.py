@@ -25,6 +25,7 @@ LEAST_LEVELS = 2
 def map_figure(title: str, losses: Losses) -> Figure | None:
     """Loss and gearbox efficiency over torque and speed; None of a single torque or speed."""
     from matplotlib.figure import Figure
+    from matplotlib.ticker import MaxNLocator
 
     torque, speed = np.unique(losses.torque), np.unique(losses.speed) * RPM
     if min(torque.size, speed.size) < LEAST_LEVELS:
@@ -43,7 +44,7 @@ def map_figure(title: str, losses: Losses) -> Figure | None:
                 low = np.nanpercentile(values, 5)
                 clipped = np.ma.masked_invalid(np.maximum(values, low)) if "efficiency" in label else values
                 drawn = axis.contourf(speed, torque, clipped, LEVELS, cmap=colours)
-                figure.colorbar(drawn, ax=axis, label=label, location="top")
+                figure.colorbar(drawn, ax=axis, label=label, location="top", ticks=MaxNLocator(3))
             axis.set_xlabel("input speed (rpm)")
             axis.grid(visible=False)
         figure.axes[0].set_ylabel("input torque (N m)")

@@ -29,7 +29,7 @@ WIDTH = 80
 LEAST_MEANING_WIDTH = 22
 """Columns that a meaning needs to the right of its key: about three words."""
 STUDY = "study"
-FILES = {STUDY: StudyFile, "gear": GearAnalysisFile, "efficiency": EfficiencyFile}
+FILES: dict[str, type[Section]] = {STUDY: StudyFile, "gear": GearAnalysisFile, "efficiency": EfficiencyFile}
 """Files other than cases, by the command that reads them."""
 EVERY_CASE = ("", "uncertainty", "recording")
 """Tables of `system.toml` that do not depend on its kind."""
