@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.part_law import part_law
-from mixedlub.laws.churning import churning_boness as law
+from mixedlub.laws.drag import wetted_area
 
 
 @part_law(
@@ -34,4 +34,10 @@ def churning_boness(
     >>> round(float(torque))
     79
     """
-    return law(wheel_radius, shaft_speed, face_width, viscosity, oil_density, immersion / wheel_radius)
+    depth = immersion / wheel_radius
+    chord = 2.0 * wheel_radius * np.sqrt(depth * (2.0 - depth))
+    reynolds = np.maximum(shaft_speed, 1e-9) * wheel_radius * chord * oil_density / viscosity
+    turbulent = np.where(reynolds < 1e5, 8.6e-4 * reynolds ** (1.0 / 3.0), 5e8 / reynolds**2)
+    drag = np.where(reynolds < 2000.0, 20.0 / reynolds, turbulent)
+    area = wetted_area(wheel_radius, face_width, 0.0, 0.0, depth)
+    return 0.5 * oil_density * shaft_speed**3 * wheel_radius**3 * area * drag

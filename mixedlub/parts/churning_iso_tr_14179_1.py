@@ -4,7 +4,6 @@ import numpy as np
 
 from mixedlub.chain.documented import Coefficient
 from mixedlub.chain.part_law import part_law
-from mixedlub.laws.churning import churning_iso_tr_14179_1 as law
 
 
 @part_law(
@@ -43,10 +42,7 @@ def churning_iso_tr_14179_1(
     >>> round(float(churning_iso_tr_14179_1(0.1, 100 * np.pi, 0.02, 4e-3, 0.0, 50e-6 * 850, 850.0, **given)))
     107
     """
-    wheel = (
-        tip_diameter,
-        shaft_speed,
-        face_width,
-        gear_module / np.cos(helix_angle),
-    )
-    return law(*wheel, helix_angle, viscosity, oil_density, dip_factor, arrangement)
+    speed, outside, nu = shaft_speed * 30.0 / np.pi, tip_diameter * 1e3, viscosity / oil_density * 1e6
+    rough = 7.93 - 4.648 / (1e3 * gear_module / np.cos(helix_angle))
+    teeth = 7.37 * face_width * 1e3 * rough / np.sqrt(np.tan(np.maximum(helix_angle, np.radians(10.0))))
+    return dip_factor * nu * speed**3 * outside**4.7 / (1e23 * arrangement) * (1.474 * outside + teeth)

@@ -4,7 +4,6 @@ import numpy as np
 
 from mixedlub.chain.documented import Coefficient
 from mixedlub.chain.part_law import part_law
-from mixedlub.laws.windage import windage_dawson as law
 
 
 @part_law(
@@ -38,4 +37,6 @@ def windage_dawson(
     >>> round(float(windage_dawson(0.090, 10_000 * np.pi / 30, 0.020, 4e-3, oil_mist=1.0, space=1.0)))
     113
     """
-    return law(root_diameter, shaft_speed, face_width, gear_module, oil_mist, space)
+    speed, root, face, size = shaft_speed * 30.0 / np.pi, root_diameter * 1e3, face_width * 1e3, gear_module * 1e3
+    shape = 0.16 * root**3.9 + root**2.9 * face**0.75 * size**1.15
+    return 1e-17 * speed**2.9 * shape * oil_mist * space

@@ -3,7 +3,6 @@
 import numpy as np
 
 from mixedlub.chain.part_law import part_law
-from mixedlub.laws.windage import windage_maurer as law
 
 
 @part_law("windage", "maurer", "Maurer", sources=1, status="constants as one public program has them")
@@ -21,4 +20,8 @@ def windage_maurer(
     >>> round(float(windage_maurer(0.050, 10_000 * np.pi / 30, 0.020, 4e-3)))
     52
     """
-    return law(wheel_radius, shaft_speed, face_width, gear_module)
+    speed = shaft_speed * wheel_radius
+    torque = (
+        1.37e-9 * speed**1.9 * (2e3 * wheel_radius) ** 1.6 * (1e3 * face_width) ** 0.52 * (1e3 * gear_module) ** 0.69
+    )
+    return torque * shaft_speed
