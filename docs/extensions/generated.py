@@ -6,6 +6,7 @@ import ast
 import contextlib
 import io
 import pkgutil
+import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
@@ -21,6 +22,8 @@ LAW_MODULES = ("roughness.mccool", "roughness.integrals", "roughness.single_aspe
 TITLES = {"mccool": "McCool's asperities", "integrals": "Integrals of Gaussian heights"}
 COLUMN_HEAD = ("column", "unit", "needed", "allowed", "meaning")
 KEY_HEAD = ("key", "unit", "default", "allowed", "meaning")
+ELSEWHERE = re.compile(r"^gears|^stages\.NAME\.(gears|lubricant|surfaces|options)\b")
+"""Tables of a file whose keys other pages have."""
 WITH_PAGES = ("laws", "effects", "friction")
 """Rooms of public names that other pages list."""
 BASELINES = (
@@ -59,6 +62,8 @@ def pieces() -> dict[str, str]:
         "oils": _oils(),
         "oil_keys": _oil_keys(),
         "gear_keys": _file_keys("mixedlub.tooth_contact.file", "GearAnalysisFile"),
+        "efficiency_keys": _file_keys("mixedlub.efficiency.file", "EfficiencyFile"),
+        "part_laws": _part_laws(),
         "presets": _presets(),
         "evaluations": _evaluations(),
         "ehl_keys": _file_keys("mixedlub.ehl.file", "EhlFile"),
@@ -145,6 +150,25 @@ def _friction_laws() -> str:
                 law.summary,
                 f"```{{math}}\n{law.equation}\n```",
                 f"```{{code-block}} text\n:class: wide\n{law.page().partition(chr(10) * 2)[2]}\n```",
+            ]
+    return "\n\n".join(parts)
+
+
+def _part_laws() -> str:
+    """Every law of a machine part: its equation drawn, and its page."""
+    from mixedlub.chain.part_law import GIVES
+    from mixedlub.parts import of_kind
+    from mixedlub.report.part_pages import page
+
+    parts = []
+    for kind, gives in GIVES.items():
+        parts.append(f"## {kind[:1].upper()}{kind[1:]}: {gives}")
+        for law in of_kind(kind).values():
+            parts += [
+                f"### {law.name}",
+                law.summary,
+                f"```{{math}}\n{law.equation}\n```",
+                f"```{{code-block}} text\n:class: wide\n{page(law).partition(chr(10) * 2)[2]}\n```",
             ]
     return "\n\n".join(parts)
 
@@ -238,13 +262,13 @@ def _columns(tables: Mapping[str, Iterable[Any]]) -> str:
 
 
 def _file_keys(module: str, name: str) -> str:
-    """The tables of a file but those of a gear pair, which are with the cases."""
+    """The tables of a file but those of gears, oil, surfaces and options, which are with the cases and studies."""
     from importlib import import_module
 
     from mixedlub.schema.section import tables
 
     file = getattr(import_module(module), name)
-    return "\n\n".join(part for table in tables(file) if not table.title.startswith("gears") for part in _keys(table))
+    return "\n\n".join(part for table in tables(file) if not ELSEWHERE.search(table.title) for part in _keys(table))
 
 
 def _evaluations() -> str:

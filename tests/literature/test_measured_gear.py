@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 FOLDER = Path(__file__).parents[2] / "examples" / "published"
-SOURCE = "Petry-Johnson's gear in a thesis of Seoul National University, tables 3.7 to 3.12"
+pytestmark = pytest.mark.literature("Petry-Johnson's gear in a thesis of Seoul National University, tables 3.7 to 3.12")
 
 
 @pytest.fixture(scope="module")
@@ -23,13 +23,11 @@ def page(script: dict[str, Any]) -> str:
     return str(script["page"]())
 
 
-@pytest.mark.literature(SOURCE)
 def test_the_page_is_what_the_script_writes(page: str) -> None:
     assert (FOLDER / "measured_gear.md").read_text(encoding="utf-8") == page
     assert "| **measured** | **170 ± 4** | **303 ± 17** | **478 ± 21** | **619 ± 14** | **555 ± 85** |" in page
 
 
-@pytest.mark.literature(SOURCE)
 def test_the_row_of_xu_is_the_column_of_the_thesis(page: str) -> None:
     (row,) = (line for line in page.splitlines() if line.startswith("| Xu and Kahraman"))
     found = np.array([float(cell) for cell in row.split("|")[2:7]])
@@ -37,7 +35,6 @@ def test_the_row_of_xu_is_the_column_of_the_thesis(page: str) -> None:
     assert abs(found[4] - 424.0) < 70.0
 
 
-@pytest.mark.literature(SOURCE)
 def test_the_measured_loss_is_the_quotient_of_the_printed_errors(script: dict[str, Any]) -> None:
     """Xu's errors in loss, 33.9, 29.7, 33.8, 35.5 and 23.7 %, lead from the measured loss to that of the model."""
     errors = np.array([33.9, 29.7, 33.8, 35.5, 23.7]) / 100.0
