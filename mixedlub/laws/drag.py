@@ -32,7 +32,7 @@ def windage_diab(
     110.0
     """
     reynolds = AIR_DENSITY * wheel_speed * wheel_radius**2 / AIR_VISCOSITY
-    shape = power(face_width / wheel_radius, 0.8) * power(wheel_teeth, -0.4) * 2.0 * clearance_ratio**0.56
+    shape = power(face_width / wheel_radius, 0.8) * power(wheel_teeth, -0.4) * 2.0 * power(clearance_ratio, 0.56)
     return 30.0 * power(reynolds, -0.25) * shape * AIR_DENSITY * wheel_speed**3 * wheel_radius**5
 
 
@@ -68,7 +68,7 @@ def churning_changenet_velex(
     froude = wheel_speed**2 * wheel_radius / GRAVITY
     reynolds = wheel_speed * wheel_radius**2 * oil_density / viscosity
     depth = 0.5 * immersion_ratio
-    drag = 1.366 * depth**0.45 * volume_ratio**0.1 * power(froude, -0.60) * power(reynolds, -0.21)
+    drag = 1.366 * power(depth, 0.45) * power(volume_ratio, 0.1) * power(froude, -0.60) * power(reynolds, -0.21)
     drag = drag * power(froude / 70.0, 0.60 - gravity_exponent) * power(reynolds / 16e3, 0.21 - viscosity_exponent)
     area = wetted_area(wheel_radius, face_width, gear_module, wheel_teeth, immersion_ratio)
     return 0.5 * oil_density * wheel_speed**3 * wheel_radius**3 * area * drag
@@ -111,7 +111,7 @@ def bath_acceleration(
     return gear_speed**2 * power(gear_radius * face_width * gear_module, 1.0 / 3.0)
 
 
-def oil_motion(viscosity: np.ndarray, oil_density: np.ndarray, wheel_speed: np.ndarray) -> np.ndarray:
+def _oil_motion(viscosity: np.ndarray, oil_density: np.ndarray, wheel_speed: np.ndarray) -> np.ndarray:
     """Kinematic viscosity times speed as bearing catalogues count it, mm^2/s rpm."""
     return viscosity / oil_density * 1e6 * wheel_speed * 30.0 / np.pi
 
@@ -134,7 +134,7 @@ def palmgren_idle_torque(
     >>> round(float(torque) * 1e3, 1)   # 2e-7 x 22 500^(2/3) x 45^3 N mm
     14.5
     """
-    motion = oil_motion(viscosity, oil_density, wheel_speed)
+    motion = _oil_motion(viscosity, oil_density, wheel_speed)
     return factor * 1e-7 * (motion**4 + 2000.0**4) ** (1.0 / 6.0) * (bearing_diameter * 1e3) ** 3 * 1e-3
 
 
@@ -165,7 +165,7 @@ def bearing_asperity_share(
     >>> round(float(bearing_asperity_share(20e-6 * 850, 850.0, 1000 * np.pi / 30, 0.045)), 2)   # exp(-1.23)
     0.29
     """
-    motion = oil_motion(viscosity, oil_density, wheel_speed)
+    motion = _oil_motion(viscosity, oil_density, wheel_speed)
     return np.exp(-2.6e-8 * np.abs(motion) ** 1.4 * bearing_diameter * 1e3)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from mixedlub.chain.documented import Coefficient
 from mixedlub.chain.part_law import part_law
-from mixedlub.laws.drag import bearing_asperity_share, oil_motion
+from mixedlub.laws.drag import bearing_asperity_share
 
 STATUS = (
     "equations of the catalogue, read in print; constants of the series in the table are confirmed by public programs, "
@@ -44,9 +44,8 @@ def skf_rolling_torque(
     >>> round(float(skf_rolling_torque(0.07183, **oil, **size)) * 1e3, 1)   # by a public program
     26.6
     """
-    motion = oil_motion(viscosity, oil_density, shaft_speed)
-    speed = np.abs(shaft_speed) * 30.0 / np.pi
-    bore, outside, nu = bore_diameter * 1e3, outside_diameter * 1e3, viscosity / oil_density * 1e6
+    speed, nu = shaft_speed * 30.0 / np.pi, viscosity / oil_density * 1e6
+    bore, outside, motion = bore_diameter * 1e3, outside_diameter * 1e3, nu * speed
     heating = 1.0 / (1.0 + 1.84e-9 * (speed * 0.5 * (bore + outside)) ** 1.28 * nu**0.64)
     starved = np.exp(-replenishment * motion * (bore + outside) * np.sqrt(geometry / (2.0 * (outside - bore))))
     return heating * starved * rolling_variable * motion**0.6 * 1e-3

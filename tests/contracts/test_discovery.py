@@ -23,6 +23,7 @@ POINTS = {
     "mixedlub.effects": ("fan_effect",),
     "mixedlub.kinds": ("fan_kind",),
     "mixedlub.friction": ("fan_rubbing",),
+    "mixedlub.parts": ("fan_blades",),
     "mixedlub.laws": ("fan_film", "fan_viscosity", "fan_shear", "fan_friction"),
     "mixedlub.load_sharing": ("fan_sharing",),
     "mixedlub.evaluations": ("fan_evaluation",),
@@ -122,6 +123,15 @@ def test_a_study_follows_the_friction_law_of_another_package(installed: Path, tm
     page = run(installed, "-m", "mixedlub", "friction-laws", "fan_rubbing").stdout
     assert "grip" in page
     assert "the maker of the fan" in page
+
+
+def test_a_gearbox_takes_the_part_of_another_package(installed: Path) -> None:
+    code = (
+        "from mixedlub.parts import find; law = find('other', 'fan_blades');"
+        "print(law.law(10.0, blades=7.0)); print('blades' in law.page())"
+    )
+    assert run(installed, "-c", code).stdout.split() == ["0.07", "True"]
+    assert "the maker of the fan" in run(installed, "-m", "mixedlub", "parts", "fan_blades").stdout
 
 
 @pytest.mark.parametrize(

@@ -31,6 +31,7 @@ OTHER_ARGUMENTS = {
     "known_viscosity": ((34e-6, 7.2e-6), "m^2/s"),
     "kinematic_viscosity": (34e-6, "m^2/s"),
     "ordinate": (0.18, "-"),
+    "immersion_ratio": (0.5, "-"),
     "youngs_modulus": ((206e9, 70e9), "Pa"),
     "poisson_ratio": ((0.3, 0.25), "-"),
     "value": (np.array([3.0, 2.0]), "Pa"),
