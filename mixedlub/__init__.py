@@ -20,6 +20,7 @@ PUBLIC = {
     "along_path": "mixedlub.api.loss",
     "load_distribution": "mixedlub.api.gear",
     "evaluate_recording": "mixedlub.api.evaluation",
+    "gearbox_efficiency": "mixedlub.api.efficiency",
     "plot": "mixedlub.api.plot",
     "diagnose": "mixedlub.api.diagnosis",
     "simulate": "mixedlub.api.diagnosis",

@@ -11,11 +11,13 @@ from mixedlub.parts import of_kind
 from mixedlub.schema.section import Number, NumberOrName, Section, Whole, key
 from mixedlub.schema.surface_file import SurfaceSection
 from mixedlub.schema.system_file import Gears, Lubricant
-from mixedlub.study.schema import Numbers, Options
+from mixedlub.study.schema import Numbers, Options, each_once
 
 Side = Literal["pinion", "gear"]
 SIDES = {"pinion": "first entry of [gears]", "gear": "second entry"}
 Positive = Annotated[Number, Field(gt=0.0)]
+MOST_CONDITIONS = 250_000
+"""Most torques times speeds of a map."""
 NotNegative = Annotated[Number, Field(ge=0.0)]
 
 
@@ -126,6 +128,10 @@ class Conditions(Section):
     @model_validator(mode="after")
     def _turning(self) -> Conditions:
         check_conditions(self.torque_Nm, self.speed_rpm)
+        each_once(self.torque_Nm)
+        each_once(self.speed_rpm)
+        if (count := len(self.torque_Nm) * len(self.speed_rpm)) > MOST_CONDITIONS:
+            raise ValueError(f"a map has at most {MOST_CONDITIONS} conditions, not {count}")
         return self
 
 

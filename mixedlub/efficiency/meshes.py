@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -15,24 +16,33 @@ MOST_SOLVED = 40
 """Torques for which contact problems are solved; between them the share is linear in the logarithm of torque."""
 LEAST_TORQUE = 1e-3
 """Torque (N m, or over the largest) at which contact without torque is computed: rolling does not depend on it."""
+MOST_POINTS = 2_000_000
+"""Contact points whose inputs are held at a time."""
+
+Shares = Callable[[np.ndarray], np.ndarray]
 
 
-def load_shares(study: Study, torque: np.ndarray) -> np.ndarray:
-    """Share of each point of the mesh at torques (N m) of the pinion, shape (N, M).
+def load_shares(study: Study, torque: np.ndarray) -> Shares:
+    """How the load divides at any of these torques (N m, of the pinion): from N torques to the shares (N, M).
 
-    >>> from mixedlub.efficiency import meshes
-    >>> meshes.MOST_SOLVED
-    40
+    Contact problems of elastic teeth are solved here, once.
     """
-    known, place = np.unique(torque, return_inverse=True)
-    if known.size <= MOST_SOLVED or not isinstance(study.rig.sharing, LdpSharing):
-        return np.asarray(study.mesh.load_share(known)[place])
+    known = np.unique(torque)
+    if not isinstance(study.rig.sharing, LdpSharing):
+        return study.mesh.load_share
+    if known.size <= MOST_SOLVED:
+        share = study.mesh.load_share(known)
+        return lambda wanted: share[np.searchsorted(known, wanted)]
     solved = np.geomspace(known[0], known[-1], MOST_SOLVED)
-    share = study.mesh.load_share(solved)
-    at = np.interp(np.log(known), np.log(solved), np.arange(MOST_SOLVED))
-    low = np.minimum(at.astype(int), MOST_SOLVED - 2)
-    part = (at - low)[:, None]
-    return np.asarray(((1.0 - part) * share[low] + part * share[low + 1])[place])
+    at_solved = study.mesh.load_share(solved)
+
+    def between(wanted: np.ndarray) -> np.ndarray:
+        at = np.interp(np.log(wanted), np.log(solved), np.arange(MOST_SOLVED))
+        low = np.minimum(at.astype(int), MOST_SOLVED - 2)
+        part = (at - low)[:, None]
+        return np.asarray((1.0 - part) * at_solved[low] + part * at_solved[low + 1])
+
+    return between
 
 
 def mesh_losses(study: Study, torque: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, np.ndarray, list[str]]:
@@ -42,19 +52,28 @@ def mesh_losses(study: Study, torque: np.ndarray, speed: np.ndarray) -> tuple[np
     load, and rolling is that of a vanishing load.
     """
     pressed = np.maximum(torque, LEAST_TORQUE * max(1.0, float(torque.max())))
-    share = load_shares(study, pressed)[None, None, :, None, :]
-    own = mesh_inputs(study.mesh, share, pressed.reshape(1, 1, -1, 1, 1), speed.reshape(1, 1, -1, 1, 1))
+    shares = load_shares(study, pressed)
+    step = max(1, MOST_POINTS // study.plan.points)
+    parts = [
+        _computed(study, shares, pressed[start : start + step], speed[start : start + step])
+        for start in range(0, torque.size, step)
+    ]
+    sliding, rolling = (np.concatenate([part[index] for part in parts]) for index in (0, 1))
+    return sliding * (torque / pressed), rolling, [word for part in parts for word in part[2]]
+
+
+def _computed(
+    study: Study, shares: Shares, torque: np.ndarray, speed: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, list[str]]:
+    """The same of loaded conditions, all at once."""
+    share = shares(torque)[None, None, :, None, :]
+    own = mesh_inputs(study.mesh, share, torque.reshape(1, 1, -1, 1, 1), speed.reshape(1, 1, -1, 1, 1))
     plan = replace(study.plan, inputs={**study.plan.inputs, **own}, shape=(1, 1, torque.size, 1))
     values = {name: np.empty(plan.shape) for name in batch.names(plan)}
-    for block, found in batch.run(plan, blocks(torque.size, plan.points)):
+    # As many blocks as keep every processor busy to the end.
+    most = max(1, -(-torque.size // (2 * batch.processors())))
+    for block, found in batch.run(plan, batch.split(plan.shape, (1, 1, most, 1))):
         for name, part in found.items():
             values[name][block] = part
     index, words = as_words(flags(plan, values), plan.shape)
-    sliding, rolling = (values[name].ravel() for name in ("mesh_loss", "rolling_loss"))
-    return sliding * (torque / pressed), rolling, [words[i] for i in index.ravel()]
-
-
-def blocks(conditions: int, points: int) -> list[batch.Block]:
-    """Ranges of conditions, as many as processors can work on at once."""
-    most = max(1, min(-(-conditions // (2 * batch.processors())), batch.BLOCK_POINTS // points))
-    return batch.split((1, 1, conditions, 1), (1, 1, most, 1))
+    return values["mesh_loss"].ravel(), values["rolling_loss"].ravel(), [words[i] for i in index.ravel()]

@@ -84,7 +84,7 @@ def _part(table: str, name: str, section: Part, where: str) -> StagePart:
     if series is not None:
         given = {**series_coefficients(law, series, f"{where}.series"), **given}
     check_given(law, given, f"{where}.coefficients", f"mixedlub parts {law.name}")
-    _check_stated(name, section, where)
+    check_name(name, where)
     side = getattr(section, "shaft", getattr(section, "wheel", "pinion"))
     return StagePart(table, name, law, section, law.values(given), 0 if side == "pinion" else 1)
 
@@ -108,9 +108,10 @@ def _check_immersion(section: Churning, radius: float, where: str) -> None:
         raise InputError(rule, where=f"{where}.immersion_mm", value=section.immersion_mm)
 
 
-def _check_stated(name: str, section: Part, where: str) -> None:
+def check_name(name: str, where: str) -> None:
+    """Refuse a name that a column of a table cannot have."""
     if not name or name != name.strip() or any(mark in name for mark in ',"\n'):
-        raise InputError("a part has a name of one line without commas or quotes", where=where, value=name)
+        raise InputError("must be a name of one line without commas or quotes", where=where, value=name)
 
 
 def _wheel(pair: GearPair, side: int) -> dict[str, Any]:

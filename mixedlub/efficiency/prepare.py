@@ -7,7 +7,7 @@ from pathlib import Path
 from mixedlub.chain.effect import Effect
 from mixedlub.efficiency.file import EfficiencyFile, Stage
 from mixedlub.efficiency.gearbox import Gearbox, StageModel
-from mixedlub.efficiency.parts import oil_state, parts_of
+from mixedlub.efficiency.parts import check_name, oil_state, parts_of
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.schema.findings import Finding
 from mixedlub.schema.toml_file import parse, read_toml
@@ -30,6 +30,7 @@ def read_gearbox(path: Path, file: EfficiencyFile | None = None) -> tuple[Gearbo
     notes: list[Finding] = []
     for name, section in file.stages.items():
         where = f"stages.{name}"
+        check_name(name, f"{path}: {where}")
         study = _study(path, where, section)
         _check_effects(study.effects, where)
         oil = oil_state(study.oil, section.oil_temperature_C + ZERO_CELSIUS)

@@ -22,8 +22,8 @@ def churning_at_high_speed(
     r"""Power of one wheel that dips into oil (W), at high centrifugal acceleration, whatever the viscosity.
 
     .. math:: P = \tfrac12\rho\omega^3R^3 S_m C_m,\quad
-              C_m = 3.644\left(\tfrac hD\right)^{0.1}\left(\tfrac{V_0}{D^3}\right)^{-0.35} Fr^{-0.88}
-              \left(\tfrac bD\right)^{0.85}
+              C_m = 3.644\left(\tfrac{h}{D}\right)^{0.1}\left(\tfrac{V_0}{D^3}\right)^{-0.35} Fr^{-0.88}
+              \left(\tfrac{b}{D}\right)^{0.85}
 
     The acceleration of gravity makes the form belong to m/s^2.
     Source: C. Changenet, P. Velex, J. Mech. Des. 129 (2007) 128; constants as quoted in reviews.

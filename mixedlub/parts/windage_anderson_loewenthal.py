@@ -17,7 +17,7 @@ def windage_anderson_loewenthal(
 ) -> np.ndarray:
     r"""Power of a wheel in the mist of a gearbox (W).
 
-    .. math:: P = 2.82\times10^{-4}\left(1 + 2.3\,\frac bR\right) n^{2.8} R^{4.6} (0.028\,\eta + 0.019)^{0.2}
+    .. math:: P = 2.82\times10^{-4}\left(1 + 2.3\,\frac{b}{R}\right) n^{2.8} R^{4.6} (0.028\,\eta + 0.019)^{0.2}
 
     with n in rpm, R and b in m, eta in mPa s. A mist of 34 parts of air to one of oil is part of the law.
 

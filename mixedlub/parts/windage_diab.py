@@ -28,7 +28,7 @@ def windage_diab(
     r"""Power of a wheel against clean air (W), walls on both sides.
 
     .. math:: P = \tfrac12 C_t \rho\omega^3 R^5,\quad
-              C_t = 60\,Re^{-0.25}\left(\tfrac bR\right)^{0.8} z^{-0.4}\,2\left(\tfrac hR\right)^{0.56}
+              C_t = 60\,Re^{-0.25}\left(\tfrac{b}{R}\right)^{0.8} z^{-0.4}\,2\left(\tfrac{h}{R}\right)^{0.56}
 
     with Re = rho omega R^2/mu of air.
 

@@ -146,10 +146,13 @@ FRONT = "stages.a.bearings.front"
         ("stages.a.gears", {"preset": "fzg_z"}, "no such gears; nearest known: 'fzg_"),
         ("conditions.torque_Nm", [-5.0, 10.0], "torque_Nm: -5 is below 0; name the side that drives"),
         ("conditions.speed_rpm", [0.0, 100.0], "speed_rpm: 0; a shaft at rest has no loss and no efficiency"),
+        ("conditions.speed_rpm", [100.0, 100.0], "each level once, but 100.0 appears again"),
+        ("conditions.speed_rpm", {"from": 1, "to": 9, "count": 100_000}, "at most 250000 conditions, not 300000"),
         ("conditions.torque_Nm", [0.0], "all torques of the map are 0"),
         ("duty", DUTY | {"duration_h": [1.0]}, "the three lists go together, but have 2, 2 and 1 entries"),
         ("duty", DUTY | {"duration_h": [1.0, -1.0]}, "duration_h"),
         ("stages", {}, "stages"),
+        ("stages.a, b", STAGE, "must be a name of one line without commas or quotes"),
     ],
 )
 def test_bad_input_is_named(

@@ -7,12 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mixedlub.efficiency import Gearbox, Losses
+import mixedlub as ml
+from mixedlub.efficiency import Gearbox, Losses, read_gearbox
 from mixedlub.efficiency.gearbox import EXCEEDED, MESH
 from mixedlub.efficiency.mesh_cycle import mesh_cycle, mesh_cycles
 from mixedlub.efficiency.meshes import MOST_SOLVED, load_shares
 from mixedlub.efficiency.table import breakdown_table, duty_summary, duty_table, loss_map, map_table, part_table
-from tests.efficiency.gearboxes import PARTS, STAGE, gearbox
+from tests.efficiency.gearboxes import PARTS, STAGE, gearbox, gearbox_file, written
 
 SECOND = STAGE | {"gears": {"preset": "h501"}, "lubricant": {"oil": "pao40"}, "oil_temperature_C": 60.0}
 ELASTIC = {"preset": "fzg_c", "load_sharing": {"model": "ldp", "tip_relief_um": [20, 20], "relief_length_mm": [2, 2]}}
@@ -90,7 +91,7 @@ class TestTorque:
     def test_shares_between_solved_torques(self, folder: Path) -> None:
         stage = gearbox(folder, STAGE | {"gears": ELASTIC}).stages[0]
         torque = np.geomspace(5.0, 300.0, MOST_SOLVED + 21)
-        between, direct = load_shares(stage.study, torque), stage.study.mesh.load_share(torque)
+        between, direct = load_shares(stage.study, torque)(torque), stage.study.mesh.load_share(torque)
         assert between == pytest.approx(direct, abs=2e-3)
 
 
@@ -178,3 +179,15 @@ def test_the_loss_map_has_torque_lost_at_every_speed_and_torque(losses: Losses) 
     power = table["torque_loss_Nm"] * table["input_speed_rpm"] * np.pi / 30
     assert power.to_numpy() == pytest.approx(table["power_loss_W"].to_numpy())
     assert np.all(table["torque_loss_Nm"] > 0.0)
+
+
+def test_python_has_the_numbers_of_the_command(folder: Path) -> None:
+    path = written(folder, gearbox_file(STAGE | PARTS))
+    found = ml.gearbox_efficiency(path)
+    table = map_table(read_gearbox(path)[0].map()).set_index(["torque_Nm", "speed_rpm"])
+    here = found.sel(torque_Nm=200.0, speed_rpm=3000.0)
+    row = table.iloc[-1]
+    for name in ("total_loss_W", "bearings_loss_W", "gearbox_efficiency_percent"):
+        assert here[name].item() == pytest.approx(row[name], rel=1e-12)
+    assert here["part_loss_W"].sum().item() == pytest.approx(row["total_loss_W"], rel=1e-9)
+    assert "a bearings front" in found["part"].values

@@ -1,0 +1,58 @@
+"""Efficiency of a gearbox from Python, as labelled arrays."""
+
+from __future__ import annotations
+
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mixedlub.efficiency import read_gearbox
+from mixedlub.efficiency.gearbox import MESH
+from mixedlub.efficiency.table import present
+from mixedlub.schema.findings import collected, warn_of
+from profiles.errors import as_path
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def gearbox_efficiency(file: str | PathLike[str]) -> xr.Dataset:
+    """Losses and efficiencies of the file of a gearbox at every torque and speed of its ``[conditions]``.
+
+    Losses in W, in all, by origin, and by part (``part_loss_W``); tooth and gearbox efficiency in percent, NaN without
+    torque. The file is that of `mixedlub efficiency`.
+
+    >>> import mixedlub as ml
+    >>> from mixedlub.efficiency import EXAMPLE
+    >>> found = ml.gearbox_efficiency(str(EXAMPLE))
+    >>> found["total_loss_W"].dims, bool((found["total_loss_W"] > 0).all())
+    (('torque_Nm', 'speed_rpm'), True)
+    >>> found["gearbox_efficiency_percent"].sel(torque_Nm=120, speed_rpm=3000).round(1).item()
+    98.6
+    """
+    import xarray as xr
+
+    with collected() as findings:
+        gearbox, notes = read_gearbox(as_path(file, "gearbox_efficiency: file"))
+        losses = gearbox.map()
+    warn_of([*findings, *notes])
+    levels = gearbox.file.conditions
+    shape, axes = (len(levels.torque_Nm), len(levels.speed_rpm)), ("torque_Nm", "speed_rpm")
+
+    def over(values: np.ndarray) -> tuple[tuple[str, ...], np.ndarray]:
+        return axes, values.reshape(shape)
+
+    parts = np.array([value.reshape(shape) for value in losses.by_origin.values()])
+    variables: dict[str, Any] = {
+        "input_power_W": over(losses.input_power),
+        "total_loss_W": over(losses.total()),
+        "tooth_efficiency_percent": over(100.0 * losses.efficiency(MESH)),
+        "gearbox_efficiency_percent": over(100.0 * losses.efficiency()),
+        **{f"{origin}_loss_W": over(losses.total(origins=(origin,))) for origin in present(losses)},
+        "part_loss_W": (("part", *axes), parts),
+        "validity": over(np.array(losses.validity)),
+    }
+    names = [" ".join(filter(None, origin)) for origin in losses.by_origin]
+    coordinates = {"part": names, "torque_Nm": list(levels.torque_Nm), "speed_rpm": list(levels.speed_rpm)}
+    return xr.Dataset(variables, coordinates, {"title": gearbox.file.title})
