@@ -9,10 +9,10 @@ import numpy as np
 
 from mixedlub.chain.model import Model
 from mixedlub.efficiency.gearbox import Gearbox, Losses, StageModel
+from mixedlub.efficiency.meshes import LOCAL
 from mixedlub.gear import LdpSharing, Mesh, at_roll_angle
 from mixedlub.study.plan import mesh_inputs
 
-POINT = ("friction", "rolling_force")
 FINE = 128
 """Slices of oblique lines that no contact problem makes costly: each is on the path as a whole or not at all."""
 
@@ -97,9 +97,9 @@ def _at_points(stage: StageModel, torque: float, speed: float, points: Mesh) -> 
             **plan.inputs,
             **mesh_inputs(points, share, own.reshape(1, 1, 1, 1, 1), turning.reshape(1, 1, 1, 1, 1)),
         }
-        model = Model(plan.chain(plan.options), tuple(inputs), POINT, plan.effects)
+        model = Model(plan.chain(plan.options), tuple(inputs), LOCAL, plan.effects)
         state = model(inputs, plan.parameters)
-    friction, resistance = (np.broadcast_to(np.ravel(state[name]), points.position.shape) for name in POINT)
+    friction, resistance = (np.broadcast_to(np.ravel(state[name]), points.position.shape) for name in LOCAL)
     force = (share * inputs["transmitted_force"]).ravel()
     oblique = math.cos(stage.pair.base_helix_angle)
     sliding = friction * force * inputs["sliding_speed"].ravel() / oblique

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import numpy as np
 
+from mixedlub.chain.model import Model
 from mixedlub.gear import LdpSharing
+from mixedlub.slots import SLOTS
 from mixedlub.study import Study, batch
-from mixedlub.study.plan import mesh_inputs
-from mixedlub.study.range_flags import as_words, flags
+from mixedlub.study.plan import Plan, mesh_inputs
+from mixedlub.study.range_flags import EXTRAPOLATED, as_words, flags
 
 MOST_SOLVED = 40
 """Torques for which contact problems are solved; between them the share is linear in the logarithm of torque."""
@@ -18,6 +20,11 @@ LEAST_TORQUE = 1e-3
 """Torque (N m, or over the largest) at which contact without torque is computed: rolling does not depend on it."""
 MOST_POINTS = 2_000_000
 """Contact points whose inputs are held at a time."""
+
+OF_ASPERITIES = ("asperities_overloaded", "area_ratio_limited", "bandwidth_limited")
+"""Flags of asperities, which a law of friction without them has no need of."""
+LOCAL = ("friction", "rolling_force")
+"""What the loss of a contact point follows from."""
 
 Shares = Callable[[np.ndarray], np.ndarray]
 
@@ -75,5 +82,16 @@ def _computed(
     for block, found in batch.run(plan, batch.split(plan.shape, (1, 1, most, 1))):
         for name, part in found.items():
             values[name][block] = part
-    index, words = as_words(flags(plan, values), plan.shape)
+    index, words = as_words(_of_loss(plan, flags(plan, values)), plan.shape)
     return values["mesh_loss"].ravel(), values["rolling_loss"].ravel(), [words[i] for i in index.ravel()]
+
+
+def _of_loss(plan: Plan, found: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The flags of what the loss depends on: a law of friction need not read film and asperities."""
+    model = Model(plan.chain(plan.options), tuple(plan.inputs), LOCAL, plan.effects)
+    made = {name for step in model.steps for name in step.outputs}
+    chosen = {slot.choices[getattr(plan.options, slot.option)].law.__name__: slot.quantity for slot in SLOTS}
+    idle = {f"{EXTRAPOLATED}{name}" for name, quantity in chosen.items() if quantity not in made}
+    idle |= set() if "area_ratio" in made else set(OF_ASPERITIES)
+    idle |= set() if "film_thickness" in made else {"film_above_contact_width"}
+    return {code: where for code, where in found.items() if code not in idle}

@@ -52,7 +52,7 @@ def _study(path: Path, where: str, stage: Stage) -> Study:
     condition = Conditions(torque_Nm=(1.0,), speed_rpm=(100.0,), oil_temperature_C=(stage.oil_temperature_C,))
     given = {
         "schema": "mixedlub-study/1",
-        **{name: getattr(stage, name) for name in SHARED},
+        **{name: getattr(stage, name) for name in SHARED if name in stage.model_fields_set},
         "surfaces": {"pinion": stage.surfaces.pinion, "gear": stage.surfaces.gear},
         "pairings": Pairings(pinion=("pinion",), gear=("gear",)),
         "conditions": condition,

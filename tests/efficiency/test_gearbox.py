@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from mixedlub.efficiency.gearbox import EXCEEDED, MESH
 from mixedlub.efficiency.mesh_cycle import mesh_cycle, mesh_cycles
 from mixedlub.efficiency.meshes import MOST_SOLVED, load_shares
 from mixedlub.efficiency.table import breakdown_table, duty_summary, duty_table, loss_map, map_table, part_table
+from mixedlub.study.columns import VALID
 from tests.efficiency.gearboxes import PARTS, STAGE, gearbox, gearbox_file, written
 
 SECOND = STAGE | {"gears": {"preset": "h501"}, "lubricant": {"oil": "pao40"}, "oil_temperature_C": 60.0}
@@ -93,6 +95,24 @@ class TestTorque:
         torque = np.geomspace(5.0, 300.0, MOST_SOLVED + 21)
         between, direct = load_shares(stage.study, torque)(torque), stage.study.mesh.load_share(torque)
         assert between == pytest.approx(direct, abs=2e-3)
+
+
+class TestValidity:
+    ROUGH: ClassVar = {"m0_um2": 0.3, "m2": 0.003, "m4_per_um2": 0.004}
+
+    def test_it_is_that_of_a_study(self, folder: Path) -> None:
+        rough = gearbox(folder, STAGE | {"surfaces": {"pinion": self.ROUGH, "gear": self.ROUGH}})
+        assert all("asperities_overloaded" in words for words in rough.map().validity)
+
+    def test_flags_of_asperities_are_left_out_where_friction_does_not_read_them(self, folder: Path) -> None:
+        surfaces = {"pinion": self.ROUGH, "gear": self.ROUGH}
+        schlenk = gearbox(folder, STAGE | {"surfaces": surfaces, "options": {"friction": "schlenk"}})
+        assert set(schlenk.map().validity) == {VALID}
+
+    def test_a_law_of_friction_beyond_its_range_is_flagged(self, folder: Path) -> None:
+        options = {"friction": "drozdov_gavrikov"}
+        found = gearbox(folder, STAGE | {"options": options}).losses(np.array([400.0]), np.array([900.0]))
+        assert "law_extrapolated:drozdov_gavrikov" in found.validity[0]
 
 
 class TestSeries:

@@ -7,6 +7,7 @@ import pytest
 
 from mixedlub.chain.part_law import COMPUTED, PartLaw
 from mixedlub.parts import catalogue, find, of_kind, series
+from mixedlub.report.equations import equation as drawn
 
 STATE = {
     "shaft_speed": 100.0,
@@ -100,3 +101,8 @@ def test_the_laws_of_changenet_and_velex_are_joined_without_a_step() -> None:
     found = law.law(*({**STATE, "shaft_speed": speed}[name] for name in law.reads))
     assert np.all(np.diff(found) > 0.0)
     assert np.diff(np.log(found)).max() < 5e-3
+
+
+@pytest.mark.parametrize("key", sorted(catalogue()), ids="-".join)
+def test_its_equation_can_be_drawn(key: tuple[str, str]) -> None:
+    assert drawn(catalogue()[key].equation.replace(r"\frac", r"\dfrac")).startswith("<svg")
