@@ -40,7 +40,7 @@ class Bearing(Part):
 
     law: str = _law("bearing", "skf_deep_groove")  # type: ignore[assignment]
     shaft: Side = key("the shaft that it carries", example="pinion", values=SIDES)
-    series: str | None = key("series of SKF's tables; or coefficients", None, example="62")
+    series: str | None = key("series of SKF's tables, or type of Palmgren's; or coefficients", None, example="62")
     bore_mm: Positive = key("bore", example=35.0)
     outside_diameter_mm: Positive = key("outside diameter", example=72.0)
     static_rating_N: Positive | None = key("static load rating C0; only laws that read it", None, example=15300.0)
@@ -59,6 +59,7 @@ class Bearing(Part):
 class Seal(Part):
     law: str = _law("seal", "iso_tr_14179_2")  # type: ignore[assignment]
     shaft: Side = key("the shaft that it seals", example="pinion", values=SIDES)
+    series: str | None = key("type of bearing whose seals they are; only skf_bearing_seals", None)
     diameter_mm: Positive = key("diameter of the shaft at the lip", example=35.0)
 
 

@@ -26,7 +26,7 @@ def of_kind(kind: Kind) -> Mapping[str, PartLaw]:
     """The laws of a kind of parts by name.
 
     >>> list(of_kind("seal"))
-    ['iso_tr_14179_1', 'iso_tr_14179_2']
+    ['iso_tr_14179_1', 'iso_tr_14179_2', 'skf_bearing_seals']
     """
     return {name: law for (one, name), law in catalogue().items() if one == kind}
 

@@ -12,13 +12,14 @@ from mixedlub.laws.drag import palmgren_idle_torque, palmgren_load_torque
     "palmgren",
     "Palmgren",
     sources=2,
-    status="the form has two sources; f0 and f1 are those of the bearing's catalogue",
+    status="the form has two sources, the factors by type of bearing one; those of your catalogue are better",
     coefficients=(
         Coefficient(
             "f0", "-", "factor of the torque without load; about 2 for deep groove ball bearings in an oil bath"
         ),
         Coefficient("f1", "-", "factor of the torque by load; 0.0002 to 0.0004 for cylindrical roller bearings"),
     ),
+    series="palmgren",
 )
 def bearing_palmgren(
     shaft_speed: np.ndarray,

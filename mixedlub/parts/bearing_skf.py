@@ -8,7 +8,7 @@ from mixedlub.laws.drag import bearing_asperity_share
 
 STATUS = (
     "equations of the catalogue, read in print; constants of the series in the table are confirmed by public programs, "
-    "those of other series are yours. Drag of an oil bath and seals of the bearing are not in it"
+    "those of other series are yours. Drag of an oil bath is not in it; seals are parts of their own"
 )
 
 

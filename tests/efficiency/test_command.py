@@ -133,7 +133,8 @@ FRONT = "stages.a.bearings.front"
         (f"{FRONT}.coefficients", {"rollin": 1e-7}, "'rollin': no such coefficient of skf_deep_groove; nearest known"),
         (f"{FRONT}.outside_diameter_mm", 20, "outside_diameter_mm 20 must be above bore_mm 35"),
         ("stages.a.bearings.back.static_rating_N", 1e4, "palmgren does not read it; leave it out"),
-        ("stages.a.bearings.back.series", "62", "palmgren has no table of series"),
+        ("stages.a.bearings.back.series", "deep_grove", "no such series of palmgren; nearest known: 'deep_groove'"),
+        ("stages.a.seals.front.series", "62", "iso_tr_14179_2 has no table of series"),
         ("stages.a.churning.wheel.immersion_mm", None, "changenet_velex needs immersion_mm"),
         (
             "stages.a.churning.wheel.immersion_mm",

@@ -41,6 +41,7 @@ GIVEN = {
     "hoehn": {"torque_at_rest": 0.1, "growth": 0.3},
     "incompressible": {"pocket_volume": 0.5, "mixture_density": 50.0},
     "own_torque": {"constant": 0.3},
+    "skf_bearing_seals": dict(series()["bearing_seals"]["deep_groove_62_to_80"]),
 }
 OF_REPORT = {"seal": {"torque_per_diameter": 3.7}, "churning": {"dip_factor": 0.25}}
 
