@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
@@ -21,7 +21,7 @@ MOST_CONDITIONS = 250_000
 NotNegative = Annotated[Number, Field(ge=0.0)]
 
 
-def _law(kind: Kind, example: str) -> object:
+def _law(kind: Kind, example: str) -> Any:
     names = ", ".join(of_kind(kind))
     return key(f"law of its {GIVES[kind]} ({names}); `mixedlub parts LAW` shows its page", example=example)
 
@@ -38,7 +38,7 @@ class Part(Section):
 class Bearing(Part):
     """A rolling bearing and the share that it carries of the mesh force."""
 
-    law: str = _law("bearing", "skf_deep_groove")  # type: ignore[assignment]
+    law: str = _law("bearing", "skf_deep_groove")
     shaft: Side = key("the shaft that it carries", example="pinion", values=SIDES)
     series: str | None = key("series of SKF's tables, or type of Palmgren's; or coefficients", None, example="62")
     bore_mm: Positive = key("bore", example=35.0)
@@ -57,38 +57,38 @@ class Bearing(Part):
 
 
 class Seal(Part):
-    law: str = _law("seal", "iso_tr_14179_2")  # type: ignore[assignment]
+    law: str = _law("seal", "iso_tr_14179_2")
     shaft: Side = key("the shaft that it seals", example="pinion", values=SIDES)
     series: str | None = key("type of bearing whose seals they are; only skf_bearing_seals", None)
     diameter_mm: Positive = key("diameter of the shaft at the lip", example=35.0)
 
 
 class Windage(Part):
-    law: str = _law("windage", "diab")  # type: ignore[assignment]
+    law: str = _law("windage", "diab")
     wheel: Side = key("the wheel", example="gear", values=SIDES)
 
 
 class Churning(Part):
-    law: str = _law("churning", "changenet_velex")  # type: ignore[assignment]
+    law: str = _law("churning", "changenet_velex")
     wheel: Side = key("the wheel that dips into oil", example="gear", values=SIDES)
     immersion_mm: Positive | None = key("depth below the oil level; only laws that read it", None, example=20.0)
     oil_volume_l: Positive | None = key("volume of the oil; only laws that read it", None, example=2.0, unit="l")
 
 
 class Pocketing(Part):
-    law: str = _law("pocketing", "incompressible")  # type: ignore[assignment]
+    law: str = _law("pocketing", "incompressible")
     exit_area_mm2: Positive = key("area through which a tooth space is emptied", example=40.0, unit="mm²")
 
 
 class Jet(Part):
-    law: str = _law("jet", "ariura")  # type: ignore[assignment]
+    law: str = _law("jet", "ariura")
     wheel: Side = key("the wheel that the jet meets", example="pinion", values=SIDES)
     oil_flow_l_min: Positive = key("oil that meets the teeth", example=2.5, unit="l/min")
     jet_speed_m_s: NotNegative = key("speed of the jet", 0.0)
 
 
 class Other(Part):
-    law: str = _law("other", "own_torque")  # type: ignore[assignment]
+    law: str = _law("other", "own_torque")
     shaft: Side = key("the shaft that it brakes", example="pinion", values=SIDES)
 
 

@@ -138,8 +138,7 @@ class Gearbox:
         for stage in self.stages:
             own, validity = stage.losses(np.maximum(power, 0.0) / turning, turning)
             found |= own
-            words.append([] if len(self.stages) == 1 else [f"{stage.name}:{v}" if v != VALID else v for v in validity])
-            words[-1] = words[-1] or validity
+            words.append([self._named(stage, word) for word in validity])
             power = power - np.sum(list(own.values()), axis=0)
             turning = turning / stage.ratio
         exceeded = (power < 0.0) & (torque > 0.0)
@@ -147,6 +146,12 @@ class Gearbox:
             _together([*each, EXCEEDED] if over else each) for *each, over in zip(*words, exceeded, strict=True)
         ]
         return Losses(self, torque, speed, found, tuple(validity))
+
+    def _named(self, stage: StageModel, words: str) -> str:
+        """The validity of a stage; of several stages each word has the name of its own."""
+        if words == VALID or len(self.stages) == 1:
+            return words
+        return "; ".join(f"{stage.name}:{word}" for word in words.split("; "))
 
     def map(self) -> Losses:
         """Losses at every torque and speed of the file, speeds fastest."""

@@ -104,6 +104,12 @@ class TestValidity:
         rough = gearbox(folder, STAGE | {"surfaces": {"pinion": self.ROUGH, "gear": self.ROUGH}})
         assert all("asperities_overloaded" in words for words in rough.map().validity)
 
+    def test_of_several_stages_each_word_names_its_stage(self, folder: Path) -> None:
+        surfaces = {"pinion": self.ROUGH, "gear": self.ROUGH}
+        box = gearbox(folder, STAGE | {"surfaces": surfaces}, SECOND | {"surfaces": surfaces})
+        for words in box.map().validity:
+            assert all(word.startswith(("a:", "b:")) or word == EXCEEDED for word in words.split("; "))
+
     def test_flags_of_asperities_are_left_out_where_friction_does_not_read_them(self, folder: Path) -> None:
         surfaces = {"pinion": self.ROUGH, "gear": self.ROUGH}
         schlenk = gearbox(folder, STAGE | {"surfaces": surfaces, "options": {"friction": "schlenk"}})
