@@ -14,7 +14,7 @@ from mixedlub.schema.toml_file import parse, read_toml
 from mixedlub.slots import SLIDING_POWER
 from mixedlub.study import Study, read_study
 from mixedlub.study.origins import losing
-from mixedlub.study.schema import Conditions, Options, Pairings, StudyFile
+from mixedlub.study.schema import Options, Pairings, StudyFile
 from profiles.errors import InputError
 
 UNREAD = ("bands", "conditions_of", "averaging")
@@ -49,7 +49,7 @@ def _study(path: Path, where: str, stage: Stage) -> Study:
                 where=f"{path}: {where}.options.{option}",
                 value=getattr(stage.options, option),
             )
-    condition = Conditions(torque_Nm=(1.0,), speed_rpm=(100.0,), oil_temperature_C=(stage.oil_temperature_C,))
+    condition = {"torque_Nm": [1.0], "speed_rpm": [100.0], "oil_temperature_C": [stage.oil_temperature_C]}
     given = {
         "schema": "mixedlub-study/1",
         **{name: getattr(stage, name) for name in SHARED if name in stage.model_fields_set},
@@ -57,7 +57,7 @@ def _study(path: Path, where: str, stage: Stage) -> Study:
         "pairings": Pairings(pinion=("pinion",), gear=("gear",)),
         "conditions": condition,
     }
-    file = StudyFile.model_validate(given)
+    file = parse(StudyFile, given, f"{path}: {where}")
     try:
         return read_study(path, file)
     except InputError as error:
