@@ -74,12 +74,12 @@ def _compare(
     out: Path | None,
     format_: str,
 ) -> None:
+    from mixedlub.chain.documented import few
     from mixedlub.report.friction_figures import figures
     from mixedlub.report.style import save
     from mixedlub.schema.toml_file import read_toml
     from mixedlub.study import read_study
     from mixedlub.study.friction_comparison import compared, mesh_table
-    from mixedlub.chain.documented import few
 
     formats = chosen_formats(format_)
     with input_errors_from(str(study)):
