@@ -18,6 +18,7 @@ from mixedlub.diagnosis.settings.inference import (
     DAMPING_START,
     DAMPING_TRIALS,
     EVIDENCE_BOUND_FACTOR,
+    FINITE_STEP,
     FIT_TOLERANCE,
     FITTED_FIRST,
     GAUSS_NEWTON_STEPS,
@@ -359,7 +360,8 @@ def _gauss_newton(
             continue
         near = cost - new_cost < max(tolerance, PRECISION_BEHIND * (rival + cost))
         change = (tried.prediction - run.prediction) / problem.sd
-        precise, exact = exact, near or not exact
+        # The secant of a very short step is noise.
+        precise, exact = exact, near or not exact or float(np.max(np.abs(moved - z), initial=0.0)) < FINITE_STEP
         slopes = problem.jacobian(explanation, moved, tried, slopes) if exact else _secant(slopes, moved - z, change)
         z, shared, run, cost, weight = moved, moved_shared, tried, new_cost, new_weight
         damping = max(damping / DAMPING_FALL, LEAST_DAMPING)
@@ -372,8 +374,7 @@ def _gauss_newton(
 
 def _secant(slopes: np.ndarray, step: np.ndarray, change: np.ndarray) -> np.ndarray:
     """Derivative corrected along the last step, by Broyden's update, so that it has the change of that step."""
-    length = float(step @ step)
-    return slopes + np.outer(change - slopes @ step, step) / length if length > 0.0 else slopes
+    return slopes + np.outer(change - slopes @ step, step) / float(step @ step)
 
 
 def _evidence_bound(cost: float, slope: np.ndarray, curvature: np.ndarray) -> float:

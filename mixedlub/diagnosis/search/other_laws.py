@@ -12,7 +12,7 @@ from mixedlub.diagnosis.explanation import NOTHING, Explanation
 from mixedlub.diagnosis.inference.additions import promising_additions
 from mixedlub.diagnosis.inference.initial_guesses import PriorDraws
 from mixedlub.diagnosis.inference.map_fit import Fit, fit_best_first, map_fit
-from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.problem import Problem, effects_of
 from mixedlub.diagnosis.search.prior_odds import PriorOdds, log_odds_of_laws
 from mixedlub.diagnosis.settings.search import LAW_LEADERS, LAW_ROUNDS, LAWS_ADDED
 from mixedlub.recording.conditions import Coordinates
@@ -62,9 +62,11 @@ def discrepancy_beside_laws(
 ) -> Discrepancy:
     """The discrepancy added to the base model, or to the best other laws of it where they are more probable.
 
-    Its evidence counts both; what it is added to, and its form, are those of the more probable one.
+    Its evidence counts both; what it is added to, and its form, are those of the more probable one. Beside laws of the
+    oil alone, as a viscometer reads them, a free function is an error of their form and no discrepancy.
     """
     laws = set(PriorOdds.of(names).laws)
+    laws = laws if any(e.stage == "law" for e in effects_of(laws)) else set()
     weights = {m: f.evidence + log_odds_of_laws(len(m.effects)) for m, f in fits.items() if laws.issuperset(m.effects)}
     bases = dict.fromkeys([NOTHING, max(weights, key=weights.__getitem__)])
     found = []
