@@ -13,7 +13,7 @@ from mixedlub.commands.figure_options import FiguresOrTables, Formats, chosen_fo
 from mixedlub.commands.study import Scheduler, progress_bar, resumed
 
 NAME = "condense"
-EXAMPLE = "mixedlub condense atf --solutions 200"
+EXAMPLE = "mixedlub condense atf --solutions 150"
 SOLUTIONS = 1000
 
 

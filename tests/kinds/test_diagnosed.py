@@ -212,7 +212,7 @@ def test_rheometer_sample_changes_with_its_history_from_an_unknown_cause(filed):
     assert "fresh sample" in said(d)
 
 
-@pytest.mark.parametrize("every", [4, 20])
+@pytest.mark.parametrize("every", [pytest.param(4, marks=pytest.mark.long), 20])
 def test_a_rheometer_log_is_answered_alike_however_dense_it_is(shared, tmp_path, every):
     table = np.genfromtxt(
         shared / "data" / "recordings" / "oil_viscosity_temperature_cycle" / "viscosity_temperature.csv",

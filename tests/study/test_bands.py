@@ -53,6 +53,7 @@ def of_profiles(monkeypatch, write_study):
     return make
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("traces", "surfaces"), [(1, 250), (4, 250)], ids=["sampling lengths", "four traces"])
 def test_a_band_of_90_percent_holds_the_true_value_of_84_to_96(traces, surfaces, pool, of_profiles, write_study):
     m0, m2, m4 = true_moments()

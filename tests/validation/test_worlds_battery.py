@@ -88,6 +88,7 @@ def test_laws_are_followed_and_never_planted(orders):
     assert {order.label for order in together} == {"none", "single"}
 
 
+@pytest.mark.long
 def test_the_same_seed_deals_the_same_worlds(orders):
     assert plan_worlds(5, 240) == orders
     assert plan_worlds(6, 240) != orders
