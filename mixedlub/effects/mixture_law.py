@@ -53,7 +53,7 @@ from mixedlub.laws.mixture import load_weighted_friction, tallian_friction
     special_cases={
         "weights by load": {"by_load": 1.0, "by_film": 0.0},
         "Aihara": {"by_load": 0.0, "by_film": 1.0, "rate": 1.8, "power": 1.2, "mean_roughness": 0.0, "end": 0.0},
-        "Doleschel": {"by_load": 0.0, "by_film": 1.0, "rate": 1.25, "power": 1.0, "mean_roughness": 1.0, "end": 0.5},
+        "Doleschel": {"by_load": 0.0, "by_film": 1.0, "rate": 1.7725, "power": 1.0, "mean_roughness": 1.0, "end": 0.5},
     },
 )
 def mixture_law(
