@@ -52,7 +52,13 @@ MIDDLE_NAYAK = 10.0
     separated_by="contact resistance or the real area itself over the film thickness",
     replaces="contact of the asperities",
     special_cases={
-        "Greenwood and Tripp": {"density": 0.97, "nayak_exponent": 0.49, "heights": 1.03, "offset": 0.45, "each": 1.0},
+        "Greenwood and Tripp over mean planes": {
+            "density": 0.97,
+            "nayak_exponent": 0.49,
+            "heights": 1.03,
+            "offset": 0.45,
+            "each": 1.0,
+        },
         "Bush, Gibson and Thomas": {
             "density": 1.36,
             "nayak_exponent": -0.01,
@@ -83,7 +89,8 @@ def asperity_law(
     separation is measured, and in the number of contacts and how it goes with the bandwidth of the spectrum. For Nayak
     numbers of 3 to 30 and films of up to 2.5 times the roughness the area of two like surfaces by Greenwood and Tripp,
     and that by Bush, Gibson and Thomas, is within 1.5 % of such a change, and that of Persson's theory, at Greenwood
-    and Williamson's pressure, within 2.5 %. Asperities that yield are `asperity_plasticity`.
+    and Williamson's pressure, within 2.5 %. Areas below 0.02 count as 0.02 in this. Asperities that
+    yield are `asperity_plasticity`.
 
     >>> law = dict(density=1.0, nayak_exponent=0.5, heights=1.0, offset=0.5, each=1.0)
     >>> changed = asperity_law(4.4106e10, 0.48970e-6, 0.13298e-6, 0.49422e-6, 0.5, 0.5, **law)

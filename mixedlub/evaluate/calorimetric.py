@@ -318,11 +318,11 @@ def _case(file: CalorimetricFile, path: Path, table: Table, heat: Heat) -> CaseD
     loaded = table["torque_Nm"] > 0.0
     common = heat.errors.common
     scale = combined({name: common[name] / heat.loss for name in ("flow meter", "density", "specific heat")})
-    shift = combined({name: common[name] for name in ("temperature rise", "heat of the shafts")})
+    shift = combined({name: common[name] for name in ("temperature rise", "heat of the shafts", "heat of the walls")})
     noise = {"setup_relative": float(scale.mean()), "setup_absolute": float(shift.mean())}
     recording = {
         "quantity": "power_loss_W",
-        "includes": "all losses in the gear housing: mesh, oil and air",
+        "includes": "all losses in the gear housing: mesh, churning and windage",
         "noise": noise,
     }
     recorded = {name: table[name][loaded] for name in ("run", "torque_Nm", "speed_rpm")}

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
+import pandas as pd
 from pydantic import Field, model_validator
 
 from mixedlub.evaluate.evaluation import CaseDraft, case_draft, check_surfaces
@@ -45,16 +45,24 @@ class SpurGearFile(RigFile):
 def mesh_friction_case(
     file: SpurGearFile,
     path: Path,
-    names: np.ndarray,
-    columns: Mapping[str, np.ndarray],
+    found: pd.DataFrame,
+    roll_angle: str,
     includes: str,
-    noise: Mapping[str, Any],
+    setup: np.ndarray,
 ) -> CaseDraft | None:
-    """Friction over the roll angle as a case, rows by the names of their recordings; None where it has no surfaces."""
+    """Friction over the roll angle, a column of what was ``found``, as a case; None where it has no surfaces.
+
+    Readings scatter by their own errors; the errors common to several are those of their set-up.
+    """
     named = {s for one in file.recordings.values() for s in (one.pinion_surface, one.gear_surface)}
     if None in named or file.lubricant is None or not file.surfaces:
         return None
     check_surfaces(file.surfaces, named, f"{path}: recordings")
+    names = found["recording"].to_numpy()
+    every, own = (found[f"friction_coefficient_{name}"].to_numpy() for name in ("sd", "sd_own"))
     recorded = {column: np.array([getattr(file.recordings[name], column) for name in names]) for column in CONDITIONS}
-    recording = {"quantity": "friction_coefficient", "includes": includes} | ({"noise": noise} if noise else {})
-    return case_draft(path, "mesh_friction", ("gears", "lubricant", "surfaces"), recording, {**recorded, **columns})
+    recorded |= {"roll_angle_deg": found[roll_angle].to_numpy(), "setup": setup}
+    recorded |= {"friction_coefficient": found["friction_coefficient"].to_numpy(), "friction_coefficient_sd": own}
+    common = float(np.median(np.sqrt(np.maximum(every**2 - own**2, 0.0))))
+    recording = {"quantity": "friction_coefficient", "includes": includes, "noise": {"setup_absolute": common}}
+    return case_draft(path, "mesh_friction", ("gears", "lubricant", "surfaces"), recording, recorded)

@@ -276,10 +276,8 @@ def _case(file: OffLineFile, path: Path, table: pd.DataFrame) -> CaseDraft | Non
     """Local friction as a case of mesh friction."""
     if file.filter.local_points == 1:
         return None
-    names = ("roll_angle_deg", "friction_coefficient", "friction_coefficient_sd")
-    columns = {name: table[name].to_numpy() for name in names}
     includes = "friction force off the line of action"
-    return mesh_friction_case(file, path, table["recording"].to_numpy(), columns, includes, {})
+    return mesh_friction_case(file, path, table, "roll_angle_deg", includes, table["recording"].to_numpy())
 
 
 EVALUATION = Evaluation(

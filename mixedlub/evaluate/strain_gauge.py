@@ -316,16 +316,11 @@ def _figures(file: StrainGaugeFile, tables: dict[str, pd.DataFrame]) -> dict[str
 def _case(file: StrainGaugeFile, path: Path, table: pd.DataFrame) -> CaseDraft | None:
     """Friction of single contact as a case of mesh friction."""
     rows = table[table["single_contact"]]
-    every, own = (rows[f"friction_coefficient_{name}"].to_numpy() for name in ("sd", "sd_own"))
-    columns = {
-        "roll_angle_deg": rows["pinion_roll_angle_deg"].to_numpy(),
-        "setup": rows["recording"].to_numpy(),
-        "friction_coefficient": rows["friction_coefficient"].to_numpy(),
-        "friction_coefficient_sd": own,
-    }
-    noise = {"setup_absolute": float(np.median(np.sqrt(np.maximum(every**2 - own**2, 0.0))))}
+    # Errors of recentring have the opposite sign on either side of the pitch point.
+    side = np.where(rows["sliding_speed_m_s"] < 0.0, "before", "behind")
+    setup = np.char.add(np.char.add(rows["recording"].to_numpy().astype(str), ", "), side)
     includes = f'tooth friction of single contact, recentre = "{file.friction.recentre}"'
-    return mesh_friction_case(file, path, rows["recording"].to_numpy(), columns, includes, noise)
+    return mesh_friction_case(file, path, rows, "pinion_roll_angle_deg", includes, setup)
 
 
 EVALUATION = Evaluation(

@@ -155,15 +155,20 @@ def hertz(contact: Contact, load: np.ndarray) -> dict[str, np.ndarray]:
     return {"hertz_pressure_MPa": found[0] * 1e-6, "hertz_half_width_um": found[1] * 1e6}
 
 
-def sweeps(table: pd.DataFrame, levels: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
-    """Condition and rows of each sweep: readings that differ in that condition alone."""
+def of_pairs(file: TwoDiscFile, ratio: np.ndarray) -> np.ndarray:
+    """Which readings are independent: of two with opposite sliding that were taken together, the positive one."""
+    return ratio > 0.0 if file.meters.drag == "both_signs" else np.ones(ratio.size, dtype=bool)
+
+
+def sweeps(table: pd.DataFrame, levels: np.ndarray, independent: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
+    """Condition and rows of each sweep: independent readings that differ in that condition alone."""
     value = table["friction_coefficient"].to_numpy()
     for number, name in enumerate(CONDITIONS):
         others = np.delete(levels, number, axis=1)
         for group in np.unique(others, axis=0):
             own = np.flatnonzero((others == group).all(axis=1))
             x = table[name].to_numpy()[own]
-            usable = own[(value[own] > 0.0) & ((x != 0.0) | (name == TEMPERATURE))]
+            usable = own[independent[own] & (value[own] > 0.0) & ((x != 0.0) | (name == TEMPERATURE))]
             if np.unique(levels[usable, number]).size >= LEAST_SWEPT:
                 yield name, usable
 
@@ -208,7 +213,7 @@ def run(file: TwoDiscFile, path: Path) -> Evaluated:
     found |= {"sliding_speed_m_s": ratio * speed, **hertz(file.contact, table["load_N"])}
     found |= interval("friction_coefficient", value, errors.sd(np.eye(value.size)))
     frame = pd.DataFrame(found | {"friction_coefficient_sd_own": errors.independent})
-    swept = list(sweeps(frame, levels))
+    swept = list(sweeps(frame, levels, of_pairs(file, ratio)))
     tables = {"traction": frame, "sweeps": sweep_table(frame, swept, errors)}
     case = _case(file, path, table, frame, errors)
     notes = list(_notes(file, case))
@@ -272,6 +277,8 @@ def _case(file: TwoDiscFile, path: Path, table: Table, frame: pd.DataFrame, erro
     recorded |= {name: table[name] for name in SURFACES}
     recorded |= {"setup": np.full(len(table), "rig"), "friction_coefficient": frame["friction_coefficient"].to_numpy()}
     recorded["friction_coefficient_sd"] = errors.independent
+    own = of_pairs(file, frame["slide_roll_ratio"].to_numpy())
+    recorded = {name: values[own] for name, values in recorded.items()}
     zero = float(np.median(np.abs(errors.common["zero of the torque"])))
     recording = {
         "quantity": "friction_coefficient",

@@ -96,23 +96,16 @@ def compared() -> Iterator[Compared]:
 
 def _films() -> Iterator[Compared]:
     for choice in FILM.choices.values():
-        kind = "minimum" if MINIMUM in choice.name else "central"
+        kind = "minimum" if MINIMUM in choice.name else "flow" if choice.law is film.moes else "central"
 
         def thick(state: State, _: Mapping[str, np.ndarray], of: Choice = choice) -> np.ndarray:
             return np.where(beyond(state, of.valid), np.nan, 1e9 * called(of.law, state))
 
         yield Compared(choice.name, f"isothermal_{kind}_film_nm", thick, choice.meaning)
-    yield Compared("moes_line", "isothermal_flow_film_nm", _moes, "film of the flow of an incompressible oil by Moes")
-
-
-def _moes(state: State, _: Mapping[str, np.ndarray]) -> np.ndarray:
-    twice = 2.0 * state["viscosity"] * state["entrainment_speed"] / (state["reduced_modulus"] * state["radius"])
-    material = state["pressure_viscosity"] * state["reduced_modulus"] * twice**0.25
-    return np.asarray(1e9 * state["radius"] * np.sqrt(twice) * film.moes_line(state["moes_load"], material))
 
 
 def _heat() -> Iterator[Compared]:
-    for name, sliding in (("inlet_shear_heating (Gupta)", 1.0), ("inlet_shear_heating (Murch and Wilson)", 0.0)):
+    for name, sliding in (("inlet_shear_heating (Gupta)", 1.0), ("inlet_shear_heating (Gupta, no sliding)", 0.0)):
 
         def heated(state: State, solved: Mapping[str, np.ndarray], weight: float = sliding) -> np.ndarray:
             own = {**state, "film_thickness": solved["isothermal_central_film_nm"]}

@@ -124,15 +124,10 @@ def moes(
 ) -> np.ndarray:
     r"""Film of a line contact in all regimes (m): that which carries the flow of an incompressible oil.
 
-    .. math:: \frac{h}{R\sqrt{2U}} = \left\{\left(H_{ri}^{7/3} + H_{ei}^{7/3}\right)^{3s/7}
-              + \left(H_{rp}^{-7/2} + H_{ep}^{-7/2}\right)^{-2s/7}\right\}^{1/s},\quad
-              s = \tfrac15\left(7 + 8\,e^{-2 H_{ei}/H_{ri}}\right)
+    .. math:: h = R\sqrt{2U}\,H(M, L),\quad M = W(2U)^{-1/2},\ L = G(2U)^{1/4}
 
-    .. math:: H_{ri} = 3 M^{-1},\ H_{ei} = 2.621\,M^{-1/5},\ H_{rp} = 1.287\,L^{2/3},\
-              H_{ep} = 1.311\,M^{-1/8} L^{3/4},\quad M = W(2U)^{-1/2},\ L = G(2U)^{1/4}
-
-    Groups as in `dowson_toyoda`. Within 7 % of full solutions for M 3 to 300 and L 3 to 10, which give 4.09 at
-    M = 10, L = 6. Source: H. Moes, Wear 159 (1992) 57, with the exponent of C. H. Venner, thesis, Twente 1991.
+    Groups as in `dowson_toyoda`, H by `moes_line`. Full solutions give 4.09 at M = 10, L = 6.
+    Source: H. Moes, Wear 159 (1992) 57.
 
     >>> h = moes(1.0, 1e-11, 10.0 * 2e-11**0.5, 1.0, 6.0 * 2e-11**-0.25, 1.0)   # M = 10, L = 6
     >>> round(float(h / 2e-11**0.5), 2)
@@ -140,13 +135,7 @@ def moes(
     """
     speed, load = _line_groups(radius, entrainment_speed, line_load, viscosity, reduced_modulus)
     double = np.sqrt(2.0 * speed)
-    m, ell = load / double, pressure_viscosity * reduced_modulus * np.sqrt(double)
-    rigid, elastic = 3.0 / m, 2.621 * power(m, -0.2)
-    thick_rigid, thick_elastic = 1.287 * power(ell, 2.0 / 3.0), 1.311 * power(m, -0.125) * power(ell, 0.75)
-    s = 0.2 * (7.0 + 8.0 * np.exp(-2.0 * elastic / rigid))
-    constant = (rigid ** (7.0 / 3.0) + elastic ** (7.0 / 3.0)) ** (3.0 / 7.0)
-    rising = (thick_rigid**-3.5 + thick_elastic**-3.5) ** (-2.0 / 7.0)
-    return radius * double * (constant**s + rising**s) ** (1.0 / s)
+    return radius * double * moes_line(load / double, pressure_viscosity * reduced_modulus * np.sqrt(double))
 
 
 def hamrock_dowson(

@@ -14,7 +14,12 @@ from mixedlub.laws.drag import windage_diab as law
     sources=0,
     status="constants as quoted in reviews, not confirmed by the paper; within a factor 1.6 of the other laws",
     coefficients=(
-        Coefficient("clearance", "-", "distance of the walls beside the wheel over its radius, at most 0.5", 0.5),
+        Coefficient(
+            "clearance",
+            "-",
+            "distance of the walls beside the wheel over its radius; above 0.5 the wheel is free, as at 0.5",
+            0.5,
+        ),
     ),
 )
 def windage_diab(
@@ -37,4 +42,4 @@ def windage_diab(
     >>> round(float(windage_diab(0.050, 10_000 * np.pi / 30, 0.020, 25.0, clearance=0.5)), -1)
     110.0
     """
-    return law(wheel_radius, shaft_speed, face_width, wheel_teeth, clearance)
+    return law(wheel_radius, shaft_speed, face_width, wheel_teeth, min(clearance, 0.5))

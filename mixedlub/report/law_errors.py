@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-FILM_LAWS = ("dowson_toyoda_central", "dowson_higginson_minimum", "moes_line", "inlet_shear_heating (Gupta)")
+FILM_LAWS = ("dowson_toyoda_central", "dowson_higginson_minimum", "moes", "inlet_shear_heating (Gupta)")
 FRICTION_LAWS = ("base model, isothermal", "base model and film_heating", "crook", "xu_kahraman")
 """Laws that have a map."""
 NARROW, WIDE = (0.7, 1.0 / 0.7), (0.25, 4.0)

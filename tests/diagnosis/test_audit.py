@@ -57,6 +57,7 @@ def test_a_sound_recording_raises_no_doubt(case: Case) -> None:
         ("mesh, Bearings and shaft seals", {}, "bearings, seals"),
         ("mesh, bearings and shaft seals", {"bearing_drag": {}}, "seals"),
         ("the mesh alone", {}, ""),
+        ("mesh; bearing and seal losses subtracted", {}, ""),
     ],
 )
 def test_losses_that_the_reading_includes_and_nothing_models_are_told(
