@@ -46,7 +46,8 @@ def bearing_palmgren(
 
     >>> load = dict(radial_load=1500.0, axial_load=0.0, bore_diameter=0.025, outside_diameter=0.065)
     >>> oil = dict(viscosity=15e-6 * 850, oil_density=850.0)
-    >>> round(float(bearing_palmgren(1500 * np.pi / 30, **oil, **load, f0=2.0, f1=3e-4, axial_factor=3.0)) * 1e3, 1)   # 14.5 + 20.25
+    >>> factors = dict(f0=2.0, f1=3e-4, axial_factor=3.0)
+    >>> round(float(bearing_palmgren(1500 * np.pi / 30, **oil, **load, **factors)) * 1e3, 1)   # 14.5 + 20.25
     34.8
     """
     diameter = 0.5 * (bore_diameter + outside_diameter)
