@@ -31,6 +31,8 @@ from mixedlub.validation.run import judge
 
 from .helpers import says_none, truth_of
 
+pytestmark = pytest.mark.long
+
 TOLD_AS = {
     "viscosity_level": "viscosity",
     "viscosity_steepness": "viscosity_slope",

@@ -27,6 +27,8 @@ from mixedlub.validation.sample_rig import progress
 
 from .helpers import change, drawn, forms_of
 
+pytestmark = pytest.mark.long
+
 KELVIN = 273.15
 WHERE = {
     "presliding": {"friction_map"},

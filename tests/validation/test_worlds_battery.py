@@ -26,6 +26,8 @@ from profiles.errors import InputError
 
 from .test_score import answer_of, truth_of
 
+pytestmark = pytest.mark.long
+
 KIND_OF = {
     "film_law": "disc",
     "asperity_law": "gear_pair",
