@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from mixedlub.chain.effect import entry
 from profiles.errors import InputError, nearest
 
 
@@ -55,6 +56,18 @@ class Documented:
         _, _, below = self._text.partition(".. math::")
         _, _, rest = below.partition("\n\n")
         return " ".join(rest.partition("Source: ")[0].split())
+
+    @property
+    def reads(self) -> tuple[str, ...]:
+        """Quantities that the law needs."""
+        return tuple(n for n, a in inspect.signature(self.law).parameters.items() if a.kind is not a.KEYWORD_ONLY)
+
+    def _page(self, parts: Mapping[str, str]) -> str:
+        """Summary, what is known of it by heading, and coefficients, as text of 80 columns."""
+        facts = [entry(f"  {name}", text) for name, text in parts.items() if text]
+        numbers = [entry(f"  {c.name}", described(c), 2 + max(16, len(c.name) + 2)) for c in self.coefficients]
+        head = entry(f"{self.name}: ", self.summary, indent=2)
+        return "\n".join([head, "", *facts, *(["", "coefficients", *numbers] if numbers else [])])
 
     def values(self, given: Mapping[str, float]) -> dict[str, Any]:
         """The coefficients, defaults where none are given."""

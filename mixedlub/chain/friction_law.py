@@ -9,8 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from mixedlub.chain.documented import Coefficient, Documented, described
-from mixedlub.chain.effect import entry
+from mixedlub.chain.documented import Coefficient, Documented
 from mixedlub.chain.model import Law
 from mixedlub.chain.plain_text import plain_equation
 from mixedlub.chain.quantities import GLOSSARY
@@ -58,11 +57,6 @@ class FrictionLaw(Documented):
             if high in given
         }
         return replace(self, valid={**self.valid, **own})
-
-    @property
-    def reads(self) -> tuple[str, ...]:
-        """Quantities of the glossary that the law needs."""
-        return tuple(n for n, a in inspect.signature(self.law).parameters.items() if a.kind is not a.KEYWORD_ONLY)
 
     def with_coefficients(self, given: Mapping[str, float]) -> Law:
         """The law with its coefficients fixed, defaults where none are given; a number becomes an array of one."""
@@ -116,10 +110,7 @@ class FrictionLaw(Documented):
             "status": self.status,
             "source": self.source,
         }
-        facts = [entry(f"  {name}", text) for name, text in parts.items() if text]
-        numbers = [entry(f"  {c.name}", described(c), 2 + max(16, len(c.name) + 2)) for c in self.coefficients]
-        head = entry(f"{self.name}: ", self.summary, indent=2)
-        return "\n".join([head, "", *facts, *(["", "coefficients", *numbers] if numbers else [])])
+        return self._page(parts)
 
     __repr__ = page
 

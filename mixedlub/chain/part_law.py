@@ -7,8 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from mixedlub.chain.documented import Coefficient, Documented, described
-from mixedlub.chain.effect import entry
+from mixedlub.chain.documented import Coefficient, Documented
 from mixedlub.chain.plain_text import plain_equation
 from profiles.errors import nearest
 
@@ -71,11 +70,6 @@ class PartLaw(Documented):
     series: str = ""
 
     @property
-    def reads(self) -> tuple[str, ...]:
-        """Quantities that the law needs."""
-        return tuple(n for n, a in inspect.signature(self.law).parameters.items() if a.kind is not a.KEYWORD_ONLY)
-
-    @property
     def keys(self) -> tuple[str, ...]:
         """Keys of the file that it needs."""
         return tuple(GIVEN[name][0] for name in self.reads if name in GIVEN)
@@ -91,10 +85,7 @@ class PartLaw(Documented):
             "status": self.status,
             "source": self.source,
         }
-        facts = [entry(f"  {name}", text) for name, text in parts.items() if text]
-        numbers = [entry(f"  {c.name}", described(c), 2 + max(16, len(c.name) + 2)) for c in self.coefficients]
-        head = entry(f"{self.name}: ", self.summary, indent=2)
-        return "\n".join([head, "", *facts, *(["", "coefficients", *numbers] if numbers else [])])
+        return self._page(parts)
 
     __repr__ = page
 

@@ -39,6 +39,8 @@ def command(
     from mixedlub.condensed.regression import regression
     from mixedlub.ehl.solve import Way
     from mixedlub.law_errors.solutions import oils
+    from mixedlub.report.condensed import figures as drawn
+    from mixedlub.report.style import save_all
     from mixedlub.schema.findings import collected
 
     formats = chosen_formats(format_)
@@ -57,7 +59,7 @@ def command(
         for name, content in {"solutions": law.table, "terms": law.terms, "against_published": against}.items():
             content.to_csv(aside / f"{name}.csv", index=False, lineterminator="\n", float_format="%.6g")
         if figures:
-            _draw(law, against, aside, formats)
+            save_all(drawn(law, against), aside, formats)
     clear_parts(folder)
     fit = law.fit
     echo(f"{fit['solutions']} contacts solved, {fit['without_solution']} without solution")
@@ -71,13 +73,3 @@ def command(
 
 def _percent(rms_of_log: float) -> str:
     return f"{100.0 * rms_of_log:.3g} %"
-
-
-def _draw(law: object, against: object, folder: Path, formats: tuple[str, ...]) -> None:
-    from mixedlub.report.condensed import figures
-    from mixedlub.report.style import save
-
-    (folder / "figures").mkdir()
-    for name, figure in figures(law, against):  # type: ignore[arg-type]
-        for ending in formats:
-            save(figure, folder / "figures" / f"{name}.{ending}")

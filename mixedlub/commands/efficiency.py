@@ -108,15 +108,11 @@ def _print(made: dict[str, pd.DataFrame], at: Losses) -> None:
 
 def _draw(title: str, losses: Losses, cycles: list[MeshCycle], folder: Path, formats: tuple[str, ...]) -> None:
     from mixedlub.report.efficiency import breakdown_figure, cycle_figure, map_figure
-    from mixedlub.report.style import save
+    from mixedlub.report.style import save_all
 
     drawn = {
         "map": map_figure(title, losses),
         "breakdown": breakdown_figure(title, losses),
         "mesh_cycle": cycle_figure(title, cycles),
     }
-    (folder / "figures").mkdir()
-    for name, figure in drawn.items():
-        for ending in formats:
-            if figure is not None:
-                save(figure, folder / "figures" / f"{name}.{ending}")
+    save_all(((name, figure) for name, figure in drawn.items() if figure is not None), folder, formats)

@@ -87,7 +87,7 @@ def _line(row: Mapping[Any, Any]) -> str:
 def _draw(title: str, table: pd.DataFrame, profiles: pd.DataFrame, folder: Path, formats: tuple[str, ...]) -> None:
     """One figure a contact, and one of all where there are several."""
     from mixedlub.report.ehl import contact_figure, drawn, summary_figure
-    from mixedlub.report.style import as_svg, save
+    from mixedlub.report.style import save_all
 
     numbers = drawn(table)
     made = {
@@ -96,11 +96,4 @@ def _draw(title: str, table: pd.DataFrame, profiles: pd.DataFrame, folder: Path,
     }
     if len(table) > 1:
         made["contacts"] = summary_figure(title, table)
-    (folder / "figures").mkdir()
-    for name, figure in made.items():
-        for ending in formats:
-            path = folder / "figures" / f"{name}.{ending}"
-            if ending == "svg":
-                path.write_text(as_svg(figure), encoding="utf-8")
-            else:
-                save(figure, path)
+    save_all(made.items(), folder, formats)

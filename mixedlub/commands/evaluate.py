@@ -36,7 +36,7 @@ def command(
     from mixedlub.evaluate import evaluate
     from mixedlub.importers.case_writer import write_case
     from mixedlub.report.evaluation import evaluation_figures
-    from mixedlub.report.style import save
+    from mixedlub.report.style import save_all
 
     formats = chosen_formats(format_)
     with input_errors_from(str(file)), busy("evaluating"):
@@ -50,10 +50,7 @@ def command(
         if found.case is not None:
             write_case(aside / CASE, found.case.system, found.case.columns, attachments=found.case.attachments)
         if figures:
-            (aside / "figures").mkdir()
-            for name, figure in evaluation_figures(found):
-                for ending in formats:
-                    save(figure, aside / "figures" / f"{name}.{ending}")
+            save_all(evaluation_figures(found), aside, formats)
     for line in found.lines:
         echo(f"  {line}")
     echo(f"{', '.join(f'{name}.csv' for name in found.tables)} in {folder}")

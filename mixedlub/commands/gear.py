@@ -90,13 +90,10 @@ def _line(row: dict[str, float]) -> str:
 
 def _draw(title: str, found: ToothContact, transmission: pd.DataFrame, folder: Path, formats: tuple[str, ...]) -> None:
     from mixedlub.report.gear import distribution_figure, pattern_figure
-    from mixedlub.report.style import save
+    from mixedlub.report.style import save_all
 
     drawn = {
         "load_distribution": distribution_figure(title, found, transmission),
         "contact_pattern": pattern_figure(title, found),
     }
-    (folder / "figures").mkdir()
-    for name, figure in drawn.items():
-        for ending in formats:
-            save(figure, folder / "figures" / f"{name}.{ending}")
+    save_all(drawn.items(), folder, formats)

@@ -48,7 +48,9 @@ def command(
     from mixedlub.ehl.solve import Way
     from mixedlub.law_errors import fits, ratios
     from mixedlub.law_errors import solutions as kept
+    from mixedlub.report.law_errors import figures as drawn
     from mixedlub.report.law_errors import fit_lines, law_lines
+    from mixedlub.report.style import save_all
     from mixedlub.schema.findings import collected
 
     formats = chosen_formats(format_)
@@ -74,20 +76,10 @@ def command(
         for name, content in tables.items():
             (aside / f"{name}.csv").write_text(kept.as_csv(content), encoding="utf-8", newline="\n")
         if figures:
-            _draw(laws, fitted, aside, formats)
+            save_all(drawn(laws, fitted), aside, formats)
     clear_parts(folder)
     echo(kept.solved_line(table))
     echo("\n".join(["", *law_lines(by_law, ratios.ALL), "", *fit_lines(tables["fits"], ratios.ALL)]))
     if not len(by_rig):
         note("no rig has enough solved contacts for exponents of its own")
     echo(f"\nresults in {folder / 'laws.csv'}, fits.csv, rigs.csv, ratios.csv, fitted.csv and solutions.csv")
-
-
-def _draw(laws: object, fitted: object, folder: Path, formats: tuple[str, ...]) -> None:
-    from mixedlub.report.law_errors import figures
-    from mixedlub.report.style import save
-
-    (folder / "figures").mkdir()
-    for name, figure in figures(laws, fitted):  # type: ignore[arg-type]
-        for ending in formats:
-            save(figure, folder / "figures" / f"{name}.{ending}")

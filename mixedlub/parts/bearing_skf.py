@@ -70,6 +70,23 @@ def skf_sliding_friction(
     return share * boundary_friction + (1.0 - share) * film_friction
 
 
+def _moment(
+    rolling_variable: np.ndarray,
+    sliding_variable: np.ndarray,
+    oil: tuple[np.ndarray, np.ndarray, np.ndarray],
+    bore_diameter: np.ndarray,
+    outside_diameter: np.ndarray,
+    replenishment: float,
+    geometry: float,
+    boundary_friction: float,
+    film_friction: float,
+) -> np.ndarray:
+    """Moment of rolling and of sliding together (N m); ``oil`` is viscosity, density and speed of the shaft."""
+    rolled = skf_rolling_torque(rolling_variable, *oil, bore_diameter, outside_diameter, replenishment, geometry)
+    mean = 0.5 * (bore_diameter + outside_diameter)
+    return rolled + sliding_variable * skf_sliding_friction(*oil, mean, boundary_friction, film_friction) * 1e-3
+
+
 @part_law(
     "bearing",
     "skf_deep_groove",
@@ -132,9 +149,8 @@ def skf_deep_groove(
     slid = np.where(loaded, both, sliding * diameter**-0.26 * radial_load ** (5.0 / 3.0))
     rolled = rolling * diameter**1.96 * (radial_load + axial) ** 0.54
     oil = (viscosity, oil_density, shaft_speed)
-    friction = skf_sliding_friction(*oil, 1e-3 * diameter, boundary_friction, film_friction)
-    torque = skf_rolling_torque(rolled, *oil, bore_diameter, outside_diameter, replenishment, 3.1)
-    return torque + slid * friction * 1e-3
+    frictions = (boundary_friction, film_friction)
+    return _moment(rolled, slid, oil, bore_diameter, outside_diameter, replenishment, 3.1, *frictions)
 
 
 @part_law(
@@ -188,9 +204,8 @@ def skf_cylindrical(
     rolled = rolling * diameter**2.41 * radial_load**0.31
     slid = sliding_axial * diameter**0.9 * axial_load + sliding * diameter * radial_load
     oil = (viscosity, oil_density, shaft_speed)
-    friction = skf_sliding_friction(*oil, 1e-3 * diameter, boundary_friction, film_friction)
-    torque = skf_rolling_torque(rolled, *oil, bore_diameter, outside_diameter, replenishment, 5.1)
-    return torque + slid * friction * 1e-3
+    frictions = (boundary_friction, film_friction)
+    return _moment(rolled, slid, oil, bore_diameter, outside_diameter, replenishment, 5.1, *frictions)
 
 
 @part_law(
@@ -256,6 +271,6 @@ def skf_angular_contact(
     rolled = rolling * diameter**1.97 * (radial_load + rolling_spin * turning + rolling_axial * axial_load) ** 0.54
     pressed = (radial_load + sliding_spin * turning) ** (4.0 / 3.0) + sliding_axial * axial_load ** (4.0 / 3.0)
     oil = (viscosity, oil_density, shaft_speed)
-    friction = skf_sliding_friction(*oil, 1e-3 * diameter, boundary_friction, film_friction)
-    torque = skf_rolling_torque(rolled, *oil, bore_diameter, outside_diameter, replenishment, geometry)
-    return torque + sliding * diameter**0.26 * pressed * friction * 1e-3
+    slid = sliding * diameter**0.26 * pressed
+    frictions = (boundary_friction, film_friction)
+    return _moment(rolled, slid, oil, bore_diameter, outside_diameter, replenishment, geometry, *frictions)
