@@ -69,14 +69,15 @@ def _root(film: np.ndarray, pressure: np.ndarray, k: float, carried: Callable[[n
     z = np.where(before > 0.0, np.log1p(before / np.maximum(-slope, _LEAST)) / k, before)
     low, high = np.minimum(before, 0.0) - 30.0, np.full_like(z, _FARTHEST)
     z = np.clip(z, low, high)
+    wrong = np.full_like(z, np.inf)
     for _ in range(_MOST_STEPS):
         growth = np.logaddexp(0.0, z)
         last, thicker = thicker, np.exp(k * growth)
         now = log_share(thicker)
-        wrong = now + growth - z
+        wrong, wrong_before = now + growth - z, wrong
         found = np.abs(wrong) < _CLOSE
-        if found.all():
-            return growth
+        # the error of a secant step is about the product of the last two
+        last_step = bool((found | (np.abs(wrong * wrong_before) < _CLOSE)).all())
         moved = thicker - last
         known = np.abs(moved) > 1e-9 * thicker
         slope = np.where(known, np.minimum((now - before) / np.where(known, moved, 1.0), 0.0), slope)
@@ -88,6 +89,8 @@ def _root(film: np.ndarray, pressure: np.ndarray, k: float, carried: Callable[[n
         step = np.where(z > 0.0, np.log(np.maximum(1.0 + k * step, 0.1)) / k, step)
         closer = np.where((z + step > low) & (z + step < high), z + step, 0.5 * (low + high))
         z = np.where(found, z, closer)
+        if last_step:
+            break
     return np.logaddexp(0.0, z)
 
 

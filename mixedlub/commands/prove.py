@@ -34,6 +34,10 @@ def command(
         bool,
         typer.Option("--worlds", help="Rigs of all kinds that follow other published laws than the base model's."),
     ] = False,
+    poor: Annotated[
+        bool,
+        typer.Option("--poor", help="Poor recordings of all kinds: few readings, noise that lasts, wrong sds, ..."),
+    ] = False,
     kinds: Annotated[
         str | None, typer.Option(metavar="KIND,...", help="Kinds of rig to deal, such as gear_pair,film.")
     ] = None,
@@ -57,15 +61,21 @@ def command(
     from mixedlub.diagnosis.report.files import diagnose
     from mixedlub.validation import run
     from mixedlub.validation.battery import fewest, plan
+    from mixedlub.validation.poor import plan_poor
     from mixedlub.validation.rigs import CONTACTS, OTHERS
     from mixedlub.validation.worlds.deal import plan_worlds, worlds_of
 
+    if worlds and poor:
+        raise InputError("is dealt of rigs that follow the base laws: leave out --worlds", where="--poor")
     every = worlds_of((*CONTACTS, *OTHERS)) if worlds and not rigs else worlds_of(OTHERS) if worlds else ()
+    every = (*CONTACTS, *OTHERS) if poor and not rigs else every
     chosen = _chosen(kinds) if kinds else every or (OTHERS if rigs else CONTACTS)
-    contacts = set(chosen) <= set(CONTACTS) and not worlds
-    default = (QUICK if contacts else RIGS_QUICK) if quick else (FULL if contacts or worlds else RIGS)
+    contacts = set(chosen) <= set(CONTACTS) and not (worlds or poor)
+    default = (QUICK if contacts else RIGS_QUICK) if quick else (FULL if contacts or worlds or poor else RIGS)
     prefix = "" if chosen in (CONTACTS, every) else "rigs_" if chosen == OTHERS else f"{'_'.join(chosen)}_"
-    folder = output_folder(out, NAME, ("worlds_" if worlds else "") + prefix + ("quick" if quick else "battery"))
+    folder = output_folder(
+        out, NAME, ("worlds_" if worlds else "poor_" if poor else "") + prefix + ("quick" if quick else "battery")
+    )
     with Progress(console=Console(stderr=True)) as bar:
         tasks = {}
 
@@ -77,13 +87,13 @@ def command(
         run.validate(
             folder,
             diagnose,
-            cases or max(default, fewest(chosen)),
+            cases or max(default, fewest(chosen) * (2 if poor else 1)),
             seed,
             chosen,
             jobs=jobs,
             baselines=contacts and not quick,
             progress=show,
-            dealt=plan_worlds if worlds else plan,
+            dealt=plan_worlds if worlds else plan_poor if poor else plan,
         )
     echo((folder / "score.txt").read_text(encoding="utf-8"))
     echo(f"written to {folder}")

@@ -23,7 +23,8 @@ class Truth:
 
     ``within`` is whether the catalogue's laws can become the planted ones; None where nothing is planted. ``laws`` are
     the steps at which the rig follows another law; recalibration cannot hide those that are ``clear``, alone or beside
-    the others, and no law of another step comes near those that are ``sole``.
+    the others, and no law of another step comes near those that are ``sole``. ``flaws`` are what is wrong with the
+    recording.
     """
 
     case: str
@@ -48,6 +49,7 @@ class Truth:
     laws: frozenset[str] = frozenset()
     clear_laws: frozenset[str] = frozenset()
     sole_laws: frozenset[str] = frozenset()
+    flaws: frozenset[str] = frozenset()
 
     @property
     def candidates(self) -> frozenset[str]:
@@ -135,6 +137,7 @@ def read_truth(folder: Path) -> Truth:
         laws=frozenset(truth.get("laws", ())),
         clear_laws=clear,
         sole_laws=sole,
+        flaws=frozenset(truth.get("flaws", ())),
     )
 
 

@@ -19,7 +19,7 @@ from mixedlub.validation.planted import MEASUREMENT, MIMICS
 from mixedlub.validation.rig import Case, Rig
 from mixedlub.validation.rigs import CLASSES, CONTACTS, FAMILIES, KINDS, Family, Partners, family_of
 from mixedlub.validation.rivals import Target, best, rivals
-from mixedlub.validation.sample_case import Order, Sample, sample_case
+from mixedlub.validation.sample_case import HEAVY, LASTING, SD_ESTIMATED, Order, Sample, sample_case
 from mixedlub.validation.worlds.misfit import told
 from profiles.errors import InputError
 
@@ -127,6 +127,15 @@ def fewest(kinds: Sequence[str]) -> int:
     return len(CLASSES) * len(families(kinds))
 
 
+def sizes(rng: np.random.Generator, chosen: Sequence[Family], cases: int, least: int) -> list[int]:
+    """Cases of each family, at least some of each: half of all are gears and discs, if they are among others."""
+    weights = [max(len(chosen) - 1.0, 1.0) if set(family.kinds) & set(CONTACTS) else 1.0 for family in chosen]
+    each = [least] * len(chosen)
+    for index in deck(rng, range(len(chosen)), weights, cases - least * len(chosen)):
+        each[index] += 1
+    return each
+
+
 def plan(seed: int, cases: int, kinds: Sequence[str] = CONTACTS) -> list[Order]:
     """The orders of a battery: every family as often, classes in fixed shares, in random order under neutral names."""
     if cases < fewest(kinds):
@@ -143,11 +152,31 @@ def shuffled(rng: np.random.Generator, orders: Sequence[Order]) -> list[Order]:
     return [replace(orders[i], name=f"case_{n:03d}") for n, i in enumerate(rng.permutation(len(orders)))]
 
 
+def errors(rng: np.random.Generator, count: int, flaws: Sequence[str]) -> np.ndarray:
+    """Errors of readings in the order in which they are taken, over their standard deviation."""
+    white = rng.standard_normal(count)
+    if HEAVY in flaws:
+        white = rng.standard_t(3, count) / np.sqrt(3.0)
+    if LASTING not in flaws:
+        return white
+    from scipy.signal import lfilter
+
+    share, memory = rng.uniform(0.3, 0.8), np.exp(-1.0 / np.exp(rng.uniform(np.log(3.0), np.log(20.0))))
+    kicks = np.sqrt(1.0 - memory**2) * rng.standard_normal(count)
+    kicks[0] /= np.sqrt(1.0 - memory**2)
+    return np.asarray(np.sqrt(1.0 - share) * white + np.sqrt(share) * lfilter([1.0], [1.0, -memory], kicks))
+
+
 def record(
-    rng: np.random.Generator, truth: np.ndarray, sd: np.ndarray, visible: np.ndarray, spoiled: bool
+    rng: np.random.Generator,
+    truth: np.ndarray,
+    sd: np.ndarray,
+    visible: np.ndarray,
+    spoiled: bool,
+    flaws: Sequence[str] = (),
 ) -> tuple[np.ndarray, np.ndarray]:
     """Readings with noise, and the rows of outliers: 2.5 % of the visible readings if the case has any."""
-    recorded = truth + sd * rng.standard_normal(len(truth))
+    recorded = truth + sd * errors(rng, len(truth), flaws)
     if not spoiled:
         return recorded, np.array([], dtype=int)
     wild = rng.choice(visible, max(1, round(0.025 * len(visible))), replace=False)
@@ -156,14 +185,28 @@ def record(
 
 
 def noise_stated(
-    rng: np.random.Generator, sample: Sample, sd: np.ndarray, sd_column: float
+    rng: np.random.Generator, sample: Sample, sd: np.ndarray, sd_column: float, flaws: Sequence[str] = ()
 ) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
     """How the case states its noise: in the settings, in a column of its own, or by repeats alone."""
+    if SD_ESTIMATED in flaws:
+        return _noise_estimated(rng, sample, sd)
     if sample.rig.repeats and rng.random() < 0.7:
         return {}, {}
     if rng.random() < sd_column:
         return {}, {f"{sample.rig.quantity}_sd": sd}
     return {"noise": {"relative": sample.relative, "absolute": sample.absolute}}, {}
+
+
+def _noise_estimated(
+    rng: np.random.Generator, sample: Sample, sd: np.ndarray
+) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+    """Noise stated as estimated from a few repeats, of each reading or of all alike."""
+    free = int(rng.integers(2, 6))
+    if rng.random() < 0.5:
+        return {}, {f"{sample.rig.quantity}_sd": sd * np.sqrt(rng.chisquare(free, len(sd)) / free)}
+    factor = float(np.sqrt(rng.chisquare(free) / free))
+    stated = {"relative": sample.relative, "absolute": sample.absolute}
+    return {"noise": {name: float(f"{factor * value:.4g}") for name, value in stated.items()}}, {}
 
 
 def weighed(sample: Sample, label: str) -> tuple[dict[str, float], float]:
@@ -216,6 +259,7 @@ def truth_of(order: Order, sample: Sample, outliers: Sequence[int]) -> dict[str,
         "info": info,
         "level": order.level if order.effects else "none",
         "small": order.small,
+        **({"flaws": list(order.flaws)} if order.flaws else {}),
         "mimic": bool(set(order.effects) & MIMICS),
         "unnamed_oil": order.no_data_sheet,
         "theta": rig.theta(z),
@@ -247,9 +291,9 @@ def make(seed: int, index: int, order: Order, folder: Path) -> str:
     rig = sample.rig.refined
     truth = rig.records(sample.z, sample.acts)
     sd = sample.sd(truth)
-    recorded, outliers = record(rng, truth, sd, np.flatnonzero(~sample.hidden), order.outliers)
+    recorded, outliers = record(rng, truth, sd, np.flatnonzero(~sample.hidden), order.outliers, order.flaws)
     recorded = recorded if rig.least is None else np.maximum(recorded, rig.least * truth)
-    stated, more = noise_stated(rng, sample, sd, family_of(order.kind).sd_column)
+    stated, more = noise_stated(rng, sample, sd, family_of(order.kind).sd_column, order.flaws)
     counted = rig.settle(rig.records(sample.z, [act for act in sample.acts if act.stage != "sensor"]))
     settings = {**rig.settings, "recording": {**rig.settings["recording"], **stated}}
     case = Case(settings=settings, columns={**rig.columns, **counted}, share=rig.share)

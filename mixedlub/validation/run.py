@@ -16,6 +16,7 @@ from mixedlub.validation.baselines import BASELINES, RIGS, refuse_without_learne
 from mixedlub.validation.battery import generate, plan, workers
 from mixedlub.validation.measures import Pair
 from mixedlub.validation.oracle import oracle
+from mixedlub.validation.poor import POOR_FIGURES
 from mixedlub.validation.rigs import CONTACTS, KINDS
 from mixedlub.validation.sample_case import Order
 from mixedlub.validation.score import FIGURES, Score, score
@@ -154,9 +155,12 @@ def judge(out: Path, sealed: Sequence[Path], rivals: dict[str, Path] | None = No
     truths = [read_truth(case) for case in sealed]
     ids = sorted({name for truth in truths for name in truth.candidates})
     figures = WORLD_FIGURES if any(truth.laws for truth in truths) else FIGURES
+    figures = POOR_FIGURES if any(truth.flaws for truth in truths) else figures
     pairs, failed = _collected(out, truths)
     every_pair = [pair for some in pairs.values() for pair in some]
     unnamed = {f"{kind}, unnamed": [pair for pair in some if pair[0].no_data_sheet] for kind, some in pairs.items()}
+    flaws = sorted({flaw for truth in truths for flaw in truth.flaws})
+    flawed = {flaw: [pair for pair in every_pair if flaw in pair[0].flaws] for flaw in flaws}
     scores = {"all": score(every_pair, TOOL, ids, figures)}
     scores |= {kind: score(some, f"{TOOL}, {kind}", ids, figures) for kind, some in pairs.items() if some}
     others = {
@@ -167,7 +171,11 @@ def judge(out: Path, sealed: Sequence[Path], rivals: dict[str, Path] | None = No
     scores["all"] = scores["all"].above(baselines) if baselines else scores["all"]
     scores |= others
     text = [scores["all"].text(), *(one.text() for one in others.values())]
-    text += [by_kind({**pairs, **{name: some for name, some in unnamed.items() if some}}), wrong(pairs)]
+    text += [
+        by_kind({**pairs, **{name: some for name, some in unnamed.items() if some}}),
+        *([by_kind(flawed)] if flawed else []),
+        wrong(pairs),
+    ]
     text += ["broke down without an answer, counted as wrong above", *failed[BROKEN], ""] if failed[BROKEN] else []
     text += ["refused as bad input, not counted above", *failed[REFUSED], ""] if failed[REFUSED] else []
     (out / "score.txt").write_text("\n".join(text), encoding="utf-8")

@@ -27,6 +27,16 @@ MOST_RIGS = 400
 """Rigs that are drawn at most to find one."""
 SMALL_CASE_SIZES = (20, 41)
 """Readings of a small case."""
+FEW, LASTING, HEAVY, SD_ESTIMATED, MIS_SET = (
+    "few readings",
+    "lasting noise",
+    "heavy tails",
+    "estimated sds",
+    "mis-set calibration",
+)
+"""What may be wrong with a recording."""
+FEW_SIZES = (12, 25)
+"""Readings of a case with few of them."""
 
 
 @dataclass(frozen=True)
@@ -34,7 +44,7 @@ class Order:
     """What one case is to be: kind, class, planted effects, and how visible they are.
 
     ``laws`` are the steps at which the rig follows another law; a ``strong`` first one is none that recalibration of
-    the base model could hide.
+    the base model could hide. ``flaws`` are what is wrong with the recording.
     """
 
     name: str
@@ -47,6 +57,12 @@ class Order:
     small: bool = False
     laws: tuple[str, ...] = ()
     strong: bool = False
+    flaws: tuple[str, ...] = ()
+
+    @property
+    def sizes(self) -> tuple[int, int] | None:
+        """Bounds of the number of readings, where the case has few."""
+        return FEW_SIZES if FEW in self.flaws else SMALL_CASE_SIZES if self.small else None
 
 
 @dataclass(frozen=True)
@@ -138,12 +154,16 @@ def _scaled(form: Form, values: dict[str, float], factor: float) -> dict[str, fl
     return {**values, "strength": float(np.clip(values["strength"] * factor, 0.98 * knob.low, 0.98 * knob.high))}
 
 
-def withhold(rng: np.random.Generator, rig: Rig, family: Family, small: bool = False) -> np.ndarray:
-    """Readings to withhold: some at random and often a level of a condition or a stretch of time; most if small."""
+def withhold(rng: np.random.Generator, rig: Rig, family: Family, sizes: tuple[int, int] | None = None) -> np.ndarray:
+    """Readings to withhold: some at random and often a level of a condition or a stretch of time.
+
+    ``sizes`` bounds how many readings are handed over, the upper bound excluded; the others are withheld then.
+    """
     count = len(rig.columns["run"])
-    if small:
+    if sizes is not None:
         hidden = np.ones(count, dtype=bool)
-        hidden[rng.choice(count, int(rng.integers(*SMALL_CASE_SIZES)), replace=False)] = False
+        kept = min(int(rng.integers(*sizes)), count - 1)
+        hidden[rng.choice(count, kept, replace=False)] = False
         return hidden
     hidden = rng.random(count) < rng.uniform(*family.scattered)
     several = {
@@ -168,10 +188,13 @@ def _sample(rng: np.random.Generator, order: Order, goal: float) -> Sample:
     """A rig with its noise, and strengths scaled, so that the effects are as visible as can be near the goal."""
     rig, world, forms = _rig_for(rng, order)
     family = family_of(order.kind)
-    hidden = withhold(rng, rig, family, order.small)
+    hidden = withhold(rng, rig, family, order.sizes)
     z = rng.standard_normal(len(rig.names))
     if not order.effects and rng.random() < family.mis_set:
         z = np.sign(z) * rng.uniform(1.0, 2.0, len(z))
+    if MIS_SET in order.flaws:
+        off = rng.choice(len(z), min(2, len(z)), replace=False)
+        z[off] = np.sign(z[off]) * rng.uniform(2.0, 3.0, len(off))
     z = z if rig.planted is None else nearest(rig)
     knobs = tuple(_knobs(rng, form) for form in forms)
     slopes = sensitivity(rig.nature, z)[~hidden]

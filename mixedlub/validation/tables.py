@@ -25,6 +25,7 @@ def by_kind(pairs: Mapping[str, Sequence[Pair]]) -> str:
         "right or tied, one effect, all": lambda s: [tied(t, a) for t, a in of(s, *one)],
         "both of a pair": lambda s: [t.label <= a.verdict for t, a in of(s, "pair")],
         "a pair, exactly or tied": lambda s: [tied(t, a) for t, a in of(s, "pair")],
+        "all of three": lambda s: [any(t.label <= one for one in a.tied) for t, a in of(s, "triple")],
         "none where nothing is missing": lambda s: [right(t, a) for t, a in of(s, "none")],
         "false alarms": lambda s: [a.detected for t, a in of(s, "none")],
         "unknown where so and identifiable": lambda s: [

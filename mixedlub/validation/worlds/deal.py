@@ -16,10 +16,11 @@ from mixedlub.validation.battery import (
     fewest,
     ordered,
     shuffled,
+    sizes,
     surveyed,
 )
 from mixedlub.validation.rig import Rig
-from mixedlub.validation.rigs import CLASSES, CONTACTS, KINDS, Family, Partners
+from mixedlub.validation.rigs import CLASSES, KINDS, Family, Partners
 from mixedlub.validation.sample_case import Order
 from mixedlub.validation.worlds import ASPERITIES, BALANCE, LAWS, MIXTURE
 from mixedlub.validation.worlds.catalogue import OF_KIND, SPOILT, TOGETHER, has_contact, laws_on
@@ -100,11 +101,7 @@ def plan_worlds(seed: int, cases: int, kinds: Sequence[str] = tuple(OF_KIND)) ->
     if cases < fewest(kinds):
         raise InputError(f"a battery of these kinds has at least {fewest(kinds)} cases", where="cases", value=cases)
     chosen = families(kinds)
-    weights = [max(len(chosen) - 1.0, 1.0) if set(family.kinds) & set(CONTACTS) else 1.0 for family in chosen]
-    least = len(CLASSES)
-    each = np.full(len(chosen), least)
-    for index in deck(np.random.default_rng([seed, 31]), range(len(chosen)), weights, cases - least * len(chosen)):
-        each[index] += 1
+    each = sizes(np.random.default_rng([seed, 31]), chosen, cases, len(CLASSES))
     rng = np.random.default_rng([seed, 3])
-    orders = [order for family, count in zip(chosen, each) for order in _orders(rng, family, seed, int(count))]
+    orders = [order for family, count in zip(chosen, each) for order in _orders(rng, family, seed, count)]
     return shuffled(rng, orders)

@@ -1,0 +1,139 @@
+"""Batteries of poor recordings: what is wrong with them, and how that is dealt and scored.
+
+Effects are as visible at the true noise as in the other batteries. What is wrong is how the recording was made or
+described: too few readings, noise that is not independent or not Gaussian, standard deviations that are estimates, a
+calibration farther off than its stated uncertainty, and three effects at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from mixedlub.validation.answers import Answer, Truth
+from mixedlub.validation.battery import (
+    contents,
+    deck,
+    drawn_rigs,
+    families,
+    fewest,
+    ordered,
+    shuffled,
+    sizes,
+    surveyed,
+)
+from mixedlub.validation.measures import false_physics, unknown_suspected
+from mixedlub.validation.planted import FORMS
+from mixedlub.validation.rig import Rig
+from mixedlub.validation.rigs import CLASSES, KINDS, Family, Partners
+from mixedlub.validation.sample_case import FEW, HEAVY, LASTING, MIS_SET, SD_ESTIMATED, Order
+from mixedlub.validation.score import FIGURES, Figure, at_least, at_most
+from profiles.errors import InputError
+
+THREE = "three effects"
+FLAWS = {
+    FEW: "12 to 24 readings",
+    LASTING: "0.3 to 0.8 of the variance of the noise lasts over 3 to 20 readings",
+    HEAVY: "noise of Student's t with 3 degrees of freedom, of the stated standard deviation",
+    SD_ESTIMATED: "standard deviations estimated from 3 to 6 repeats, of each reading or of all alike",
+    MIS_SET: "two calibrations 2 to 3 stated standard deviations off",
+    THREE: "three effects that act after different stages",
+}
+SHARES = dict(zip(CLASSES, (0.28, 0.42, 0.08, 0.06, 0.16)))
+"""Of the classes, where two effects at most act."""
+TRIPLE = "triple"
+MOST_DRAWS = 20
+"""Draws of three effects, over the number wanted."""
+SECOND_FLAW = 4
+"""Every fourth case has a second flaw."""
+
+
+def _triple(rng: np.random.Generator, partners: Sequence[Partners]) -> tuple[str, ...] | None:
+    """Three effects of which the first goes with both others, and which act after different stages."""
+    first, seconds, _ = partners[int(rng.integers(len(partners)))]
+    more = [one for name, some, _ in partners if name == first for one in some]
+    more += [name for name, some, _ in partners if first in some]
+    seconds = tuple(dict.fromkeys(one for one in (*seconds, *more) if one != first))
+    hooks = {name: FORMS[name][0].hook if name in FORMS else name for name in seconds}
+    for place in rng.permutation(len(seconds)):
+        one = seconds[place]
+        fitting = [name for name in seconds if hooks[name] != hooks[one]]
+        if fitting:
+            return first, one, fitting[int(rng.integers(len(fitting)))]
+    return None
+
+
+def _triples(rng: np.random.Generator, drawn: Mapping[str, Sequence[Rig]], count: int) -> list[Order]:
+    """Cases with three effects, on those of some kinds of rig that are open to all three."""
+    orders: list[Order] = []
+    for _ in range(MOST_DRAWS * count):
+        if len(orders) == count:
+            break
+        kind = list(drawn)[len(orders) % len(drawn)]
+        effects = _triple(rng, KINDS[kind].pairs)
+        if effects and any(set(effects) <= rig.ids for rig in drawn[kind]):
+            orders.append(Order("", kind, TRIPLE, effects, "clear", flaws=(THREE,)))
+    return orders
+
+
+def _orders(rng: np.random.Generator, family: Family, seed: int, cases: int) -> list[Order]:
+    drawn = {kind: drawn_rigs(kind, seed) for kind in family.kinds}
+    surveys = {kind: surveyed(rigs) for kind, rigs in drawn.items()}
+    partners = {kind: KINDS[kind].pairs for kind in family.kinds}
+    triples = _triples(rng, drawn, cases // len(FLAWS))
+    dealt = contents(rng, replace(family, classes=SHARES), cases - len(triples), surveys, partners)
+    others = [name for name in FLAWS if name != THREE]
+    flaws = deck(rng, others, [1.0] * len(others), len(dealt))
+    made = []
+    for place, order in enumerate(ordered(rng, family, dealt)):
+        own = {flaws[place]}
+        if place % SECOND_FLAW == 0:
+            own.add(others[int(rng.integers(len(others)))])
+        made.append(replace(order, flaws=tuple(sorted(own)), small=FEW in own))
+    return made + triples
+
+
+def plan_poor(seed: int, cases: int, kinds: Sequence[str]) -> list[Order]:
+    """The orders of a battery of poor recordings, half of them gears and discs; each has one flaw, every fourth two."""
+    chosen = families(kinds)
+    least = fewest(kinds) + len(chosen)
+    if cases < least:
+        raise InputError(f"a battery of these kinds has at least {least} cases", where="cases", value=cases)
+    rng = np.random.default_rng([seed, 4])
+    each = sizes(rng, chosen, cases, least // len(chosen))
+    return shuffled(rng, [order for family, n in zip(chosen, each) for order in _orders(rng, family, seed, n)])
+
+
+def _all_three(truth: Truth, answer: Answer) -> float:
+    """All three are named by the verdict or by one explanation tied with it."""
+    return float(any(truth.label <= one for one in (answer.verdict, *answer.tied)))
+
+
+def _two_of_three(truth: Truth, answer: Answer) -> float:
+    return float(len(truth.label & answer.verdict) >= 2)
+
+
+def _nothing(truth: Truth, answer: Answer) -> bool:
+    return truth.group == "none"
+
+
+def _triple_case(truth: Truth, answer: Answer) -> bool:
+    return truth.group == TRIPLE
+
+
+def _few_tied(truth: Truth, answer: Answer) -> float:
+    return float(len(answer.tied) <= 3)
+
+
+POOR_FIGURES: tuple[Figure, ...] = (
+    *FIGURES,
+    Figure("three", "three effects named, or in one tie", _triple_case, _all_three, at_least(0.6), "share"),
+    Figure("two_of_three", "  two of them named", _triple_case, _two_of_three, reduction="share"),
+    Figure("false_physics", "nothing missing: a false effect at 0.9 or more", _nothing, false_physics, at_most(0.03),
+           "share"),
+    Figure("unknown_false", "nothing missing: unknown above 0.5", _nothing, unknown_suspected, at_most(0.05), "share"),
+    Figure("few_tied", "at most three explanations tied", lambda truth, answer: True, _few_tied, at_least(0.9),
+           "share"),
+)  # fmt: skip
