@@ -15,7 +15,7 @@ from mixedlub.diagnosis.inference.initial_guesses import fit_singles, sample
 from mixedlub.diagnosis.inference.map_fit import map_fit
 from mixedlub.diagnosis.inference.nested_laws import published_gain, published_odds
 from mixedlub.diagnosis.problem import Problem
-from mixedlub.diagnosis.search.search import one_in_time
+from mixedlub.diagnosis.search.several import one_in_time
 
 from ..kinds.conftest import BALL, make, system
 from .test_inference import problem
@@ -70,6 +70,7 @@ def test_the_place_of_a_sudden_change_is_found_and_paid_for(make, seed: int) -> 
     assert paid == pytest.approx(np.log(gap * density), abs=0.7)
 
 
+@pytest.mark.long
 def test_a_law_beside_a_sudden_change_has_the_odds_that_it_has_alone(make) -> None:
     """Whichever law thins a film, the place of a miscounted order beside it is as uncertain as before."""
     speed = np.geomspace(0.01, 4.0, 24)
@@ -87,6 +88,7 @@ def test_a_law_beside_a_sudden_change_has_the_odds_that_it_has_alone(make) -> No
     assert odds[1] == pytest.approx(odds[0], abs=0.3)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("count", [60, 400])
 def test_a_change_whose_place_is_known_costs_no_more_than_laplace_says(make, count: int) -> None:
     """An event spread over many readings has its place from their slope."""

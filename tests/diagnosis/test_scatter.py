@@ -169,6 +169,7 @@ def test_sds_of_one_setting_leave_out_a_share_of_the_reading(tmp_path: Path) -> 
     assert d.search.problem.single_sd[-1] == pytest.approx(0.02 * recorded[-1], rel=0.6)
 
 
+@pytest.mark.long
 def test_noise_of_very_many_readings_is_estimated_though_a_share_of_them_is_looked_at(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

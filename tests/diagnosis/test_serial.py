@@ -58,6 +58,7 @@ def test_the_seconds_after_a_start_are_no_effect(make) -> None:
     assert {1, 2, 3} <= set(d.outlier_runs)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "seed",
     [

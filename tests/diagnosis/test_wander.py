@@ -57,6 +57,7 @@ def test_noise_that_does_not_wander_is_left_as_it_is(tmp_path):
     assert "residuals_drift" not in codes(d.warnings)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("form", "name"),
     [
@@ -97,6 +98,7 @@ def test_what_swings_far_beyond_the_noise_is_a_state(tmp_path, count):
     assert d.posterior.verdict != NOTHING
 
 
+@pytest.mark.long
 def test_set_ups_that_are_off_do_not_wander(tmp_path):
     """What a new reading scatters by beside its set-up's error does not grow with how far set-ups are off."""
     noise = wandering_noise(3, 0.9, 0.01)

@@ -24,6 +24,8 @@ from profiles.errors import InputError
 from .conftest import SEED
 from .helpers import readings, truth_of
 
+pytestmark = pytest.mark.long
+
 INPUTS = {"gear_pair": gears.inputs_of, "disc": discs.inputs_of}
 
 

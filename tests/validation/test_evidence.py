@@ -69,6 +69,7 @@ def searches(problems: list[Problem]) -> list[Search]:
     return found
 
 
+@pytest.mark.long
 def test_the_bound_of_the_search_alarms_nowhere(searches: list[Search]) -> None:
     assert all(found.log_bayes_factor < np.log(BAYES_FACTOR_MARGIN / LEVEL) for found in searches)
 

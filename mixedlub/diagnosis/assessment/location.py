@@ -10,7 +10,8 @@ import numpy as np
 from mixedlub.diagnosis.discrepancy.local import TURNED
 from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.problem import effects_of
-from mixedlub.diagnosis.search.search import CLOCKS, Search
+from mixedlub.diagnosis.search.search import Search
+from mixedlub.diagnosis.search.several import CLOCKS
 from mixedlub.diagnosis.settings.assessment import CUT_GAIN, LARGE_SHARE, MOST_CUTS, MOST_ENDS, NO_MISMATCH
 from mixedlub.recording.conditions import PASSING
 from mixedlub.recording.set_points import set_points

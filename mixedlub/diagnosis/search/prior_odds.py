@@ -1,4 +1,4 @@
-"""Prior odds of explanations: nothing missing, effects alone and in pairs, and beside them other laws of the base."""
+"""Prior odds of explanations: nothing missing, up to three effects, and beside them other laws of the base."""
 
 from __future__ import annotations
 
@@ -19,18 +19,19 @@ from mixedlub.diagnosis.settings.search import (
 )
 
 
-def priors(effects: int) -> tuple[float, float, float]:
-    """Prior weights of nothing, of one effect and of two, for a number of effects; the discrepancy keeps its own.
+def priors(effects: int) -> tuple[float, ...]:
+    """Prior weights of nothing, of one effect, of two and of three, for a number of effects.
 
-    Among few effects the prior of nothing is raised and that of pairs lowered.
+    Among few effects the prior of nothing is raised, and those of pairs and triples are lowered.
 
-    >>> priors(30), [round(p, 2) for p in priors(6)]
-    ((0.42, 0.38, 0.08), [0.89, 0.38, 0.02])
+    >>> priors(30), [round(p, 3) for p in priors(6)]
+    ((0.42, 0.38, 0.08, 0.02), [0.887, 0.38, 0.019, 0.001])
     """
     if effects == 0:
-        return PRIOR["nothing"], 0.0, 0.0
+        return PRIOR["nothing"], 0.0, 0.0, 0.0
     nothing = min(max(PRIOR["nothing"], LEAST_NOTHING_ODDS * PRIOR["single"] / effects), 1.0)
-    return nothing, PRIOR["single"], PRIOR["pair"] * min(1.0, effects / FULL_PAIR_PRIOR)
+    many = min(1.0, effects / FULL_PAIR_PRIOR)
+    return nothing, PRIOR["single"], PRIOR["pair"] * many, PRIOR["triple"] * many**2
 
 
 def log_odds_of_laws(count: int) -> float:
@@ -65,18 +66,26 @@ class PriorOdds:
 
     @cached_property
     def _sizes(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        """Prior weight of nothing, one effect and two, and the sum of odds that shares it."""
-        each = np.array(list(self._odds.values()))
-        return priors(len(each)), (1.0, float(each.sum()), 0.5 * float(each.sum() ** 2 - (each**2).sum()))
+        """Prior weight of each number of effects, and the sum of the products of their odds that shares it."""
+        weights = priors(len(self._odds))
+        sums = np.zeros(len(weights))
+        sums[0] = 1.0
+        for odds in self._odds.values():
+            sums[1:] += odds * sums[:-1]
+        return weights, tuple(sums)
 
     def log(self, explanation: Explanation) -> float:
         """Log prior weight of an explanation."""
         if explanation.is_discrepancy:
             return float(np.log(PRIOR["discrepancy"]))
-        effects = [name for name in explanation.effects if name in self._odds]
+        effects = self.effects_among(explanation)
         weight, total = (sizes[len(effects)] for sizes in self._sizes)
         odds = sum(np.log(self._odds[n]) for n in effects) + log_odds_of_laws(len(explanation.effects) - len(effects))
         return float(np.log(weight / total) + odds)
+
+    def effects_among(self, explanation: Explanation) -> list[str]:
+        """Effects of an explanation that are no other law of the base model."""
+        return [name for name in explanation.effects if name in self._odds]
 
     @property
     def total(self) -> float:

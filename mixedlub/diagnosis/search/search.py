@@ -1,4 +1,4 @@
-"""Search over explanations: nothing, each effect, pairs of effects, and the discrepancy."""
+"""Search over explanations: nothing, each effect, several together, and the discrepancy."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from mixedlub.diagnosis.inference.initial_guesses import PriorDraws, fit_singles
 from mixedlub.diagnosis.inference.map_fit import Fit, Linear, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.inference.nested_laws import published_gain
 from mixedlub.diagnosis.problem import Problem, effects_of
-from mixedlub.diagnosis.search.other_laws import discrepancy_beside_laws, fit_from, with_more_laws
 from mixedlub.diagnosis.search.prior_odds import PriorOdds
+from mixedlub.diagnosis.search.several import discrepancy_beside_laws, fit_from, one_in_time, with_additions
 from mixedlub.diagnosis.settings.inference import (
     HOPELESS_BEHIND,
     OUTLIER_SHARE,
@@ -45,9 +45,6 @@ from mixedlub.diagnosis.settings.search import (
 )
 from mixedlub.parallel import shared_out
 from mixedlub.recording.conditions import Coordinates
-
-CLOCKS = {"time", "sequence", "ageing"}
-"""Quantities that change by themselves while a test runs."""
 
 Progress = Callable[[str], None]
 
@@ -206,7 +203,7 @@ def _search(
     fits: dict[Explanation, Fit] = {NOTHING: null_fit, **singles}
     progress("trying pairs of effects")
     fits |= {fit.explanation: fit for fit in _fit_pairs(problem, null_fit, singles, draws)}
-    fits = with_more_laws(problem, fits, draws)
+    fits = with_additions(problem, fits, draws)
     fits = {m: integrate_change_points(problem, f) for m, f in fits.items() if shows(problem, f, fits)}
     scores = _scores(problem, fits, space, values)
     progress("weighing a discrepancy")
@@ -234,18 +231,6 @@ def _fit_pairs(
     added = promising_additions(problem, leaders, draws, PAIRS)
     pairs = [pair for pair in added if not one_in_time(pair[0], problem, null_fit)]
     return fit_from(problem, pairs, max([null_fit.evidence, *(f.evidence for f in singles.values())]))
-
-
-def one_in_time(pair: Explanation, problem: Problem, null_fit: Fit) -> bool:
-    """Whether two effects cannot be separated: one is a fault of the channel, and both depend on time alone.
-
-    Their sum is then one function of time, however good the fit. A condition that drifts, and on which neither effect
-    nor the base model depends beyond noise, separates nothing.
-    """
-    effects, inputs = effects_of(pair.effects), problem.forward.inputs
-    inputs_read = {name for e in effects for name in e.reads if name in inputs and np.ptp(inputs[name]) > 0.0}
-    still = np.ptp(null_fit.prediction) <= np.median(problem.sd)
-    return any(e.stage == "measurement" for e in effects) and bool(still) and inputs_read <= CLOCKS
 
 
 def shows(problem: Problem, fit: Fit, fits: Mapping[Explanation, Fit]) -> bool:

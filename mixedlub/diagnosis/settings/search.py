@@ -3,13 +3,15 @@
 import numpy as np
 
 # Priors of the explanations
-PRIOR = {"nothing": 0.42, "single": 0.38, "pair": 0.08, "discrepancy": 0.12}
-"""Judgement. Prior probabilities before any reading: nothing missing is as probable as one effect, two are rare."""
+PRIOR = {"nothing": 0.42, "single": 0.38, "pair": 0.08, "triple": 0.02, "discrepancy": 0.12}
+"""Judgement. Prior weights before any reading: nothing missing is as probable as one effect, each further one is about
+a fifth as probable."""
 LEAST_NOTHING_ODDS = 14.0
 """Judgement. Least prior odds of nothing over each single effect: one that the readings neither need nor exclude then
 does not tie with nothing missing."""
 FULL_PAIR_PRIOR = 25
-"""Judgement. Number of effects from which pairs have their whole prior; among fewer, pairs are fewer too."""
+"""Judgement. Number of effects from which pairs have their whole prior; among fewer, pairs are fewer too, and triples
+by the square."""
 LAW_ODDS = 0.02
 """Judgement. Prior odds that one step of the base model follows another published law than its own, on any one rig."""
 FURTHER_LAW_ODDS = 0.1
@@ -18,8 +20,10 @@ AFFECTED = 0.1
 """Judgement. Share of the largest change by an explanation from which a reading is affected: less is hardly seen."""
 
 # Cost
-LAW_LEADERS, LAWS_ADDED, LAW_ROUNDS = 6, 16, 3
-"""Cost limit. Best explanations to which a further law is added, such additions that are fitted, and rounds of them."""
+ADDED_TO, MOST_ADDED, ROUNDS = 6, 16, 3
+"""Cost limit. Best explanations to which a law or an effect is added, such additions that are fitted, and rounds."""
+MOST_EFFECTS = 3
+"""Judgement. Effects that are looked for at once: more are seldom told apart."""
 MANY = 1200
 """Cost limit. Readings beyond which explanations are searched on a subset."""
 SUBSET = 600

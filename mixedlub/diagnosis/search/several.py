@@ -1,4 +1,4 @@
-"""Other laws of the base model: several at once, beside effects, and beneath a discrepancy."""
+"""Several at once: other laws of the base model and effects beside each other, and laws beneath a discrepancy."""
 
 from __future__ import annotations
 
@@ -14,8 +14,24 @@ from mixedlub.diagnosis.inference.initial_guesses import PriorDraws
 from mixedlub.diagnosis.inference.map_fit import Fit, fit_best_first, map_fit
 from mixedlub.diagnosis.problem import Problem, effects_of
 from mixedlub.diagnosis.search.prior_odds import PriorOdds, log_odds_of_laws
-from mixedlub.diagnosis.settings.search import LAW_LEADERS, LAW_ROUNDS, LAWS_ADDED
+from mixedlub.diagnosis.settings.inference import STRONG_EVIDENCE
+from mixedlub.diagnosis.settings.search import ADDED_TO, MOST_ADDED, MOST_EFFECTS, ROUNDS
 from mixedlub.recording.conditions import Coordinates
+
+CLOCKS = {"time", "sequence", "ageing"}
+"""Quantities that change by themselves while a test runs."""
+
+
+def one_in_time(several: Explanation, problem: Problem, null_fit: Fit) -> bool:
+    """Whether effects cannot be separated: one is a fault of the channel, and all depend on time alone.
+
+    Their sum is then one function of time, however good the fit. A condition that drifts, and on which neither they
+    nor the base model depend beyond noise, separates nothing.
+    """
+    effects, inputs = effects_of(several.effects), problem.forward.inputs
+    inputs_read = {name for e in effects for name in e.reads if name in inputs and np.ptp(inputs[name]) > 0.0}
+    still = np.ptp(null_fit.prediction) <= np.median(problem.sd)
+    return any(e.stage == "measurement" for e in effects) and bool(still) and inputs_read <= CLOCKS
 
 
 def fit_from(problem: Problem, starts: Sequence[tuple[Explanation, np.ndarray]], rival: float) -> list[Fit]:
@@ -23,10 +39,14 @@ def fit_from(problem: Problem, starts: Sequence[tuple[Explanation, np.ndarray]],
     return fit_best_first(lambda one, best: map_fit(problem, *one, rival=best), starts, rival)
 
 
-def with_more_laws(
+def with_additions(
     problem: Problem, fits: dict[Explanation, Fit], draws: tuple[PriorDraws, ...]
 ) -> dict[Explanation, Fit]:
-    """The fits with pairs of laws, leaders beside further laws, and laws beside an effect, as long as one improves."""
+    """The fits with a further law or effect beside the leaders, as long as one improves.
+
+    Pairs of laws are all tried. A further effect is tried beside laws, and beside two effects, or
+    one and a law, where nothing is much more probable.
+    """
     prior = PriorOdds.of(s.id for s in draws)
     laws = tuple(s for s in draws if s.id in prior.laws)
     others = tuple(s for s in draws if s.id not in prior.laws)
@@ -34,22 +54,25 @@ def with_more_laws(
     def weight(fit: Fit) -> float:
         return fit.evidence + prior.log(fit.explanation)
 
-    best = max(fits.values(), key=weight)
-    if not laws or best.explanation == NOTHING:
+    def needs_more(fit: Fit, best: float) -> bool:
+        parts, effects = len(fit.explanation.effects), len(prior.effects_among(fit.explanation))
+        return not effects or (effects < MOST_EFFECTS and parts > 1 and weight(fit) > best - STRONG_EVIDENCE)
+
+    if max(fits.values(), key=weight).explanation == NOTHING:
         return fits
-    leaders = [fits[Explanation.of(s.id)] for s in laws]
-    most = len(laws) ** 2
-    for _ in range(LAW_ROUNDS):
-        alone = [f for f in leaders if set(prior.laws).issuperset(f.explanation.effects)]
+    leaders, most = [fits[Explanation.of(s.id)] for s in laws], len(laws) ** 2
+    for _ in range(ROUNDS):
         added = promising_additions(problem, leaders, laws, most)
-        added += promising_additions(problem, alone, others, LAWS_ADDED)
-        fresh = [item for item in added if item[0] not in fits]
+        best = max(weight(f) for f in fits.values())
+        added += promising_additions(problem, [f for f in leaders if needs_more(f, best)], others, MOST_ADDED)
+        null_fit = fits[NOTHING]
+        fresh = [one for one in added if one[0] not in fits and not one_in_time(one[0], problem, null_fit)]
         found = fit_from(problem, fresh, max(f.evidence for f in fits.values()))
         fits |= {one.explanation: one for one in found}
         ranked = sorted((f for f in fits.values() if f.explanation.effects), key=lambda f: -weight(f))
-        if leaders == ranked[:LAW_LEADERS]:
+        if leaders == ranked[:ADDED_TO]:
             break
-        leaders, most = ranked[:LAW_LEADERS], LAWS_ADDED
+        leaders, most = ranked[:ADDED_TO], MOST_ADDED
     return fits
 
 
