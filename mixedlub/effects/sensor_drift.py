@@ -29,7 +29,15 @@ STEADY = 1e-9
     fingerprint={"sequence": "+"},
     separated_by="the first point repeated at the end, and a reference (check weight, reference oil, gauge block) read "
     "before and after: drift shows in both, a sample or surface that changes in the first only",
-    applied_after=("fringe_order", "fringe_step", "heat_leak", "torque_constant", "torque_offset", "zero_drift"),
+    applied_after=(
+        "fringe_order",
+        "fringe_step",
+        "heat_leak",
+        "torque_constant",
+        "torque_gain",
+        "torque_offset",
+        "zero_drift",
+    ),
     special_cases={"a steady drift": {"settling": 0.0}},
 )
 def sensor_drift(reading: np.ndarray, sequence: np.ndarray, *, drift: float, settling: float) -> np.ndarray:

@@ -15,7 +15,15 @@ from mixedlub.chain.priors import SinhNormal
     fingerprint={"load": "0", "speed": "0", "oil_temperature": "0", "roughness": "0", "slide_roll_ratio": "0"},
     separated_by="another instrument on the same quantity, or power circulation in both directions: the same share of "
     "every reading, whatever the surfaces",
-    applied_after=("fringe_order", "fringe_step", "heat_leak", "torque_constant", "torque_offset", "zero_drift"),
+    applied_after=(
+        "fringe_order",
+        "fringe_step",
+        "heat_leak",
+        "torque_constant",
+        "torque_gain",
+        "torque_offset",
+        "zero_drift",
+    ),
     exact_form=True,
 )
 def sensor_gain(reading: np.ndarray, *, gain: float) -> np.ndarray:

@@ -24,7 +24,15 @@ from mixedlub.chain.priors import SinhNormal
     source="measurement: zero error of a channel",
     fingerprint={"load": "-", "roughness": "-", "slide_roll_ratio": "-"},
     separated_by="a reading with the rig at rest: the same number everywhere",
-    applied_after=("fringe_order", "heat_leak", "sensor_drift", "sensor_gain", "torque_constant", "torque_offset"),
+    applied_after=(
+        "fringe_order",
+        "heat_leak",
+        "sensor_drift",
+        "sensor_gain",
+        "torque_constant",
+        "torque_gain",
+        "torque_offset",
+    ),
     exact_form=True,
 )
 def sensor_offset(reading: np.ndarray, reading_scale: np.ndarray, *, offset: float) -> np.ndarray:

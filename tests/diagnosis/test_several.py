@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import combinations
+from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
@@ -38,7 +38,7 @@ def test_the_odds_of_every_set_of_effects_and_laws_add_up_to_the_total() -> None
 
 def test_each_further_effect_is_less_probable_beforehand() -> None:
     weights = priors(40)
-    assert all(more < fewer for fewer, more in zip(weights[1:], weights[2:], strict=False))
+    assert all(more < fewer for fewer, more in pairwise(weights[1:]))
     assert len(priors(0)) == len(weights)
 
 

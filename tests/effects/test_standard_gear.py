@@ -37,6 +37,7 @@ alike, Palmgren's bearings, a film as warm as the oil."""
         ("surface_defects", 0.9, 1.0),
         ("tip_relief", 0.67, 0.96),
         ("torque_offset", 0.0, 1.0),
+        ("torque_gain", 1.0, 1.0),
         ("sensor_gain", 1.17, 0.93),
     ],
 )

@@ -272,6 +272,7 @@ def test_no_effect_is_planted_in_forms_of_the_catalogue_alone_where_others_are_c
     assert alone == {
         "sensor_offset",
         "sensor_gain",
+        "torque_gain",
         "torque_offset",
         "force_offset",
         "fringe_order",

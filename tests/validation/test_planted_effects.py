@@ -35,7 +35,7 @@ GEAR_IDS = {
     *("tribofilm_growth", "dynamic_load", "misalignment", "tip_relief", "rolling_resistance", "windage"),
     *("churning", "bearing_drag", "seal_drag", "elastic_hysteresis", "pressure_viscosity_law"),
     *("bulk_temperature", "viscosity_drift", "heat_leak", "sensor_offset", "sensor_gain", "sensor_drift"),
-    "torque_offset",
+    *("torque_offset", "torque_gain"),
 }
 
 
@@ -137,6 +137,7 @@ def _power(rigs, name, column):
         ("elastic_damping", (1.65, 2.0), (0.95, 1.05)),
         ("bearing_drag", (0.3, 1.3), (0.8, 1.7)),
         ("torque_offset", (0.0, 0.0), (1.0, 1.0)),
+        ("torque_gain", (1.0, 1.0), (1.0, 1.0)),
         ("seal_drag", (0.0, 0.0), (1.0, 1.0)),
     ],
 )

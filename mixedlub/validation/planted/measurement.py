@@ -88,6 +88,12 @@ def torque_offset(c: Contact, strength: float) -> Contact:
     return replace(c, recorded=c.recorded + 0.05 * strength * speed)
 
 
+def torque_gain(c: Contact, strength: float) -> Contact:
+    """Spans of two torque meters: 0.1 % of the power that goes in, times strength."""
+    turning = c.rig.conditions["speed_rpm"].astype(float) * np.pi / 30
+    return replace(c, recorded=c.recorded + 1e-3 * strength * c.rig.conditions["torque_Nm"].astype(float) * turning)
+
+
 EFFECTS = (
     Form(
         "heat_leak",
@@ -126,6 +132,7 @@ EFFECTS = (
     Form(
         "torque_offset", "sensor", torque_offset, (strength(-8.0, 8.0),), "torque meter zero", rarity=0.7, within=True
     ),
+    Form("torque_gain", "sensor", torque_gain, (strength(-5.0, 5.0),), "torque meter spans", rarity=0.7, within=True),
 )
 
 

@@ -35,7 +35,7 @@ from mixedlub.validation.sample_rig import (
 
 NOT_HERE = (
     *("dynamic_load", "misalignment", "tip_relief", "windage", "churning", "bearing_drag", "seal_drag"),
-    *("bulk_temperature", "heat_leak", "torque_offset", "square_law_brake"),
+    *("bulk_temperature", "heat_leak", "torque_gain", "torque_offset", "square_law_brake"),
 )
 """Effects of teeth, wheels, gearboxes and their instruments."""
 FRICTION = friction_chain()
