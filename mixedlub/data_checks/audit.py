@@ -266,7 +266,8 @@ def _stuck(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[Fin
         return []
     runs = listed(rows["run"][same].tolist(), STUCK_ROWS)
     statement = f"{counts[most]} of {y.size} readings are exactly {values[most]:g} though {', '.join(varied)} vary"
-    text = f"{statement}: check for a channel that was stuck or filled in (runs {runs})"
+    ended = ", at the end of its range" if most in (0, values.size - 1) else ""
+    text = f"{statement}: check for a channel that was stuck{ended}, or filled in (runs {runs})"
     return [finding("channel_stuck", text)]
 
 
