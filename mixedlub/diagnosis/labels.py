@@ -113,7 +113,16 @@ def explanation_words(names: Sequence[str]) -> str:
     >>> explanation_words(["churning", "sensor_offset"])
     'churning and sensor offset'
     """
-    return " and ".join(effect_words(name) for name in names)
+    return enumerated([effect_words(name) for name in names])
+
+
+def enumerated(words: Sequence[str]) -> str:
+    """Words in a row.
+
+    >>> enumerated(["windage"]), enumerated(["seals", "bearings", "windage"])
+    ('windage', 'seals, bearings and windage')
+    """
+    return " and ".join([*([", ".join(words[:-1])] if len(words) > 1 else []), *words[-1:]])
 
 
 def with_names(words: str, first: bool = True) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from mixedlub.data_checks.audit import SCARCE
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import NOTHING
-from mixedlub.diagnosis.labels import STAGE_WORDS, effect_words, explanation_words, with_names
+from mixedlub.diagnosis.labels import STAGE_WORDS, effect_words, enumerated, explanation_words, with_names
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.settings.inference import LIKELY
 from mixedlub.diagnosis.settings.report import LEAST_P, MOST_TIED, STAGE_SHOWN
@@ -132,7 +132,7 @@ def _common(d: Diagnosis) -> list[str]:
 def _tie_with_common(d: Diagnosis, common: list[str]) -> str:
     """A tie whose explanations share some effects and differ in the others."""
     posterior, inclusion = d.posterior, d.posterior.inclusion(d.search)
-    shared = " and ".join(f"{effect_words(name)} ({chance(inclusion[name])})" for name in common)
+    shared = enumerated([f"{effect_words(name)} ({chance(inclusion[name])})" for name in common])
     each = []
     for key in posterior.tied[:MOST_TIED]:
         others = [name for name in key.ids if name not in common]

@@ -13,7 +13,7 @@ from mixedlub.chain.plain_text import plain_equation, with_symbol
 from mixedlub.chain.priors import LogUniform, Prior, Uniform
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.labels import effect_words, in_reach, number, with_names
+from mixedlub.diagnosis.labels import effect_words, enumerated, in_reach, number, with_names
 from mixedlub.diagnosis.report.text.answer import effect_records, interval, verdict_fit
 from mixedlub.diagnosis.settings.report import FAR, RPM, SAME_READING, STRAINED, SURE, UNMOVED, VAGUE
 from mixedlub.schema.findings import collected
@@ -94,7 +94,7 @@ def _unmoved(e: Effect, parameters: list[Parameter]) -> list[str]:
     """A sentence on parameters without influence on any reading; the table leaves them out."""
     if not parameters:
         return []
-    names = " and ".join(with_symbol(p.name, plain_equation(p.symbol)) for p in parameters)
+    names = enumerated([with_symbol(p.name, plain_equation(p.symbol)) for p in parameters])
     return [f"{with_names(effect_words(e.id))}: no reading here depends on {names}, which the table leaves out."]
 
 
@@ -137,7 +137,7 @@ def _cancelling(e: Effect, fitted: list[tuple[Parameter, dict[str, float]]], pro
     ends = [(p, p.null, f["low90"], f["high90"]) for p, f in fitted if p.null is not None]
     if len(ends) < 2 or probability < SURE or not all(low < null < high for _, null, low, high in ends):
         return []
-    names = " and ".join(p.name.replace("_", " ") for p, *_ in ends)
+    names = enumerated([p.name.replace("_", " ") for p, *_ in ends])
     return [
         f"{with_names(effect_words(e.id))}: each of {names} alone may have no effect, but not all at once: only their "
         "combined effect is known."
