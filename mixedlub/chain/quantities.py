@@ -159,6 +159,7 @@ pinion_radius           | r_1        | m       | operating pitch radius of the p
 gear_radius             | r_2        | m       | operating pitch radius of the gear
 gear_speed              | omega_2    | rad/s   | angular speed of the gear
 gear_module             | m_n        | m       | normal module
+helix_angle             | beta       | rad     | helix angle at the reference circle, without sign
 pinion_teeth            | z_1        | -       | teeth of the pinion
 gear_teeth              | z_2        | -       | teeth of the gear
 contact_ratio           | epsilon_alpha | -       | length of the path of contact over the base pitch

@@ -40,7 +40,7 @@ TURBULENT = -1.0 / 3.0, 8.0 / 3.0
     r"p' = p + \max(-3q, 0)(\tfrac83 - p),\quad "
     r"\mathrm{Fr} = \omega_2^2 r_2/(9.81\,\text{m/s}^2),\ \mathrm{Re} = \rho\,\omega_2 r_2^2/\eta_0,\quad "
     r"S_m = \left(\frac{2\pi}{3} - \frac{\sqrt{3}}{2}\right)r_2^2 + \frac{2\pi}{3}\,r_2 b_w + "
-    r"\frac{1.5\,z_2 m_n b_w}{\cos 20^\circ}",
+    r"\frac{1.5\,z_2 m_n b_w}{\cos 20^\circ\cos\beta}",
     source="C. Changenet, P. Velex, J. Mech. Des. 129 (2007) 128 (q = 0.21, f = 0.6); other powers reach from "
     "there to the viscous drag of R. J. Boness, Proc. Int. Symp. Gearing 1989 (n^2 nu), ISO/TR 14179-1 (n^3 nu), "
     "and to Boness' turbulent branch (n^(10/3) nu^(-1/3))",
@@ -62,6 +62,7 @@ def churning(
     face_width: np.ndarray,
     gear_module: np.ndarray,
     gear_teeth: np.ndarray,
+    helix_angle: np.ndarray,
     viscosity: np.ndarray,
     oil_density: np.ndarray,
     gears_fitted: np.ndarray,
@@ -77,7 +78,8 @@ def churning(
     Between q = 0 and Boness' branch, where thinner oil causes more loss, p rises to Boness' value. The acceleration of
     gravity makes the form belong to m/s^2.
 
-    >>> wheel = dict(gear_radius=0.05, face_width=0.02, gear_module=4e-3, gear_teeth=25.0, gears_fitted=1.0)
+    >>> wheel = dict(gear_radius=0.05, face_width=0.02, gear_module=4e-3, gear_teeth=25.0)
+    >>> wheel |= dict(helix_angle=0.0, gears_fitted=1.0)
     >>> speed = 1100 * 3.14159 / 30
     >>> shape = dict(strength=1.0, viscous=0.21, surplus=0.38)
     >>> round(float(churning(0.0, gear_speed=speed, viscosity=0.017, oil_density=850.0, **wheel, **shape)), 1)
@@ -95,5 +97,6 @@ def churning(
         oil_density,
         viscosity_exponent=viscous,
         gravity_exponent=1.0 - viscous - 0.5 * more,
+        helix_angle=helix_angle,
     )
     return power_loss + strength * gears_fitted * stirred

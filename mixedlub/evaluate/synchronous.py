@@ -7,7 +7,9 @@ from itertools import pairwise
 
 import numpy as np
 from scipy.interpolate import Akima1DInterpolator
+from scipy.stats import t as student
 
+from mixedlub.evaluate.uncertainty import NORMAL_90
 from profiles.errors import InputError
 
 LEAST_SAMPLES = 4
@@ -18,9 +20,9 @@ LEAST_SAMPLES = 4
 class Average:
     """Mean signals (M, S) at angles (M,) over N turns.
 
-    ``errors`` (N, M, S) are independent errors of the mean, each of one standard deviation: the deviation of each turn
-    from the mean, over sqrt(N (N - 1)). They keep how errors of neighbouring angles and of several signals go together.
-    ``spacing`` is the angle from sample to sample, over which linear interpolation blurs what happens at once.
+    ``errors`` (N, M, S) are independent errors of the mean, one a turn, as `errors_of_mean` gives them. They keep how
+    errors of neighbouring angles and of several signals go together. ``spacing`` is the angle from sample to sample,
+    over which linear interpolation blurs what happens at once.
     """
 
     angle: np.ndarray
@@ -36,7 +38,29 @@ class Average:
     @property
     def sd(self) -> np.ndarray:
         """Standard deviation of the mean of each signal (S,), the median over the angles."""
-        return np.asarray(np.median(np.sqrt((self.errors**2).sum(axis=0)), axis=0))
+        widened = np.median(np.sqrt((self.errors**2).sum(axis=0)), axis=0)
+        return np.asarray(widened / few_turns(self.turns))
+
+
+def few_turns(turns: int) -> float:
+    """Width of the 90 % interval of a mean whose scatter few turns tell, over that of a known scatter.
+
+    Student's t at N - 1 degrees of freedom over the normal distribution.
+
+    >>> [round(few_turns(turns), 2) for turns in (2, 3, 10, 50)]
+    [3.84, 1.78, 1.11, 1.02]
+    """
+    return float(student.isf(0.05, turns - 1)) / NORMAL_90
+
+
+def errors_of_mean(each: np.ndarray) -> np.ndarray:
+    """Independent errors of the mean over the turns, from the signals of each turn (N, ...).
+
+    The deviation of each turn over sqrt(N (N - 1)), wider by `few_turns`, so that 1.645 times the root of their sum of
+    squares is the 90 % interval. What comes again in every turn is no error of the mean.
+    """
+    turns = len(each)
+    return (each - each.mean(axis=0)) * (few_turns(turns) / np.sqrt(turns * (turns - 1)))
 
 
 def synchronous_average(
@@ -72,8 +96,7 @@ def synchronous_average(
     if grid.size == 0:
         raise InputError("no shaft angle is covered by every revolution", where=f"{source}: shaft_angle_deg")
     each = np.stack([Akima1DInterpolator(angle[a:b], signals[a:b], method="makima")(grid) for a, b in pairwise(bounds)])
-    mean = each.mean(axis=0)
-    return Average(grid, mean, (each - mean) / np.sqrt(names.size * (names.size - 1)), _spacing(turn, angle))
+    return Average(grid, each.mean(axis=0), errors_of_mean(each), _spacing(turn, angle))
 
 
 def _spacing(turn: np.ndarray, angle: np.ndarray) -> float:
@@ -86,8 +109,8 @@ def cycle_average(
 ) -> Average:
     """Mean of one signal over a mesh cycle, at ``count`` angles from 0; ``angle`` in degrees since the pulse of a turn.
 
-    Whole turns are averaged tooth by tooth; the deviations of the teeth from their mean are the errors. Run-out, which
-    comes less often a turn than half the teeth, cancels in the mean and is taken out of these deviations.
+    The mean is over whole turns and their teeth; the errors are those of the turns, as noise of neighbouring teeth may
+    go together. Run-out cancels in the mean over the teeth of a turn.
     """
     along = 360.0 * (turn - turn.min()) + angle
     order = np.argsort(along, kind="stable")
@@ -103,14 +126,10 @@ def cycle_average(
         raise InputError(rule, where=f"{source}: shaft_angle_deg", value=round(widest, 4))
     first, last = np.ceil((along[0] - spacing) / 360.0), np.floor((along[-1] + spacing) / 360.0)
     turns = int(last - first)
-    if turns < 1:
-        raise InputError("needs one whole revolution or more", where=f"{source}: revolution", value=turns)
+    if turns < 2:
+        raise InputError("needs two whole revolutions or more, whose scatter is the error", where=f"{source}: revolution", value=turns)
     places = 360.0 * first + step * np.arange(turns * teeth * count)
     inside = np.clip(places, along[0], along[-1])
-    each = Akima1DInterpolator(along, signal, method="makima")(inside).reshape(turns, -1).mean(axis=0)
-    orders = np.fft.rfft(each)
-    orders[1 : teeth // 2] = 0.0
-    each = np.fft.irfft(orders, n=each.size).reshape(teeth, count)
-    mean = each.mean(axis=0)
-    errors = (each - mean) / np.sqrt(teeth * (teeth - 1))
-    return Average(step * np.arange(count), mean[:, None], errors[:, :, None], spacing)
+    samples = Akima1DInterpolator(along, signal, method="makima")(inside)
+    each = samples.reshape(turns, teeth, count).mean(axis=1)[:, :, None]
+    return Average(step * np.arange(count), each.mean(axis=0), errors_of_mean(each), spacing)

@@ -44,6 +44,7 @@ def gear_inputs(points: Mesh, speed: np.ndarray) -> Inputs:
     return {
         "face_width": pair.face_width,
         "gear_module": pair.normal_module,
+        "helix_angle": abs(pair.helix_angle),
         "pinion_radius": pair.operating_radius[0],
         "gear_radius": pair.operating_radius[1],
         "gear_speed": speed / pair.gear_ratio,

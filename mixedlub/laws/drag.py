@@ -48,6 +48,7 @@ def churning_changenet_velex(
     gravity_exponent: float = 0.60,
     immersion_ratio: float | np.ndarray = 0.5,
     volume_ratio: float | np.ndarray = 1.5,
+    helix_angle: float | np.ndarray = 0.0,
 ) -> np.ndarray:
     r"""Power of one wheel that dips into oil (W), at low centrifugal acceleration.
 
@@ -70,7 +71,7 @@ def churning_changenet_velex(
     depth = 0.5 * immersion_ratio
     drag = 1.366 * power(depth, 0.45) * power(volume_ratio, 0.1) * power(froude, -0.60) * power(reynolds, -0.21)
     drag = drag * power(froude / 70.0, 0.60 - gravity_exponent) * power(reynolds / 16e3, 0.21 - viscosity_exponent)
-    area = wetted_area(wheel_radius, face_width, gear_module, wheel_teeth, immersion_ratio)
+    area = wetted_area(wheel_radius, face_width, gear_module, wheel_teeth, immersion_ratio, helix_angle)
     return 0.5 * oil_density * wheel_speed**3 * wheel_radius**3 * area * drag
 
 
@@ -80,22 +81,26 @@ def wetted_area(
     gear_module: np.ndarray | float,
     wheel_teeth: np.ndarray | float,
     immersion_ratio: float | np.ndarray,
+    helix_angle: float | np.ndarray = 0.0,
 ) -> np.ndarray:
     r"""Area of a wheel in the oil (m^2): sides, rim and flanks of the teeth, which are 2.25 modules high.
 
-    .. math:: S_m = R^2(2\theta - \sin2\theta) + D b\,\theta + \frac{2 z b h_t\theta}{\pi\cos\alpha},\quad
+    .. math:: S_m = R^2(2\theta - \sin2\theta) + D b\,\theta + \frac{2 z b h_t\theta}{\pi\cos\alpha\cos\beta},\quad
               \cos\theta = 1 - h/R
 
     Source: C. Changenet, P. Velex, J. Mech. Des. 129 (2007) 128.
 
     >>> round(float(wetted_area(0.05, 0.02, 4e-3, 0.0, 1.0)) * 1e4, 2)   # half of both sides and of the rim, cm^2
     109.96
+    >>> teeth = [wetted_area(0.05, 0.02, 4e-3, 25.0, 1.0, b) - wetted_area(0.05, 0.02, 0.0, 0.0, 1.0) for b in (0, 1)]
+    >>> round(float(teeth[1] / teeth[0] * np.cos(1.0)), 9)   # the flanks of a helical wheel are longer than it is wide
+    1.0
     """
     wetted = np.arccos(1.0 - immersion_ratio)
     sides = wheel_radius**2 * (2.0 * wetted - np.sin(2.0 * wetted))
     rim = 2.0 * wheel_radius * face_width * wetted
-    teeth = 2.0 * wheel_teeth * face_width * 2.25 * gear_module * wetted / (np.pi * np.cos(np.radians(20.0)))
-    return sides + rim + teeth
+    flanks = 2.0 * wheel_teeth * face_width * 2.25 * gear_module * wetted / (np.pi * np.cos(np.radians(20.0)))
+    return sides + rim + flanks / np.cos(helix_angle)
 
 
 def bath_acceleration(

@@ -18,6 +18,7 @@ def churning_at_high_speed(
     oil_density: np.ndarray,
     immersion_ratio: np.ndarray,
     volume_ratio: np.ndarray,
+    helix_angle: float | np.ndarray = 0.0,
 ) -> np.ndarray:
     r"""Power of one wheel that dips into oil (W), at high centrifugal acceleration, whatever the viscosity.
 
@@ -35,7 +36,7 @@ def churning_at_high_speed(
     froude = np.maximum(wheel_speed, 1e-9) ** 2 * wheel_radius / GRAVITY
     slim = (face_width / (2.0 * wheel_radius)) ** 0.85
     drag = 3.644 * (0.5 * immersion_ratio) ** 0.1 * volume_ratio**-0.35 * froude**-0.88 * slim
-    area = wetted_area(wheel_radius, face_width, gear_module, wheel_teeth, immersion_ratio)
+    area = wetted_area(wheel_radius, face_width, gear_module, wheel_teeth, immersion_ratio, helix_angle)
     return 0.5 * oil_density * wheel_speed**3 * wheel_radius**3 * area * drag
 
 
@@ -52,6 +53,7 @@ def churning_both(
     face_width: np.ndarray,
     gear_module: np.ndarray,
     wheel_teeth: np.ndarray,
+    helix_angle: np.ndarray,
     viscosity: np.ndarray,
     oil_density: np.ndarray,
     immersion: np.ndarray,
@@ -65,16 +67,16 @@ def churning_both(
 
     Source: C. Changenet, P. Velex, J. Mech. Des. 129 (2007) 128.
 
-    >>> wheel = dict(face_width=0.02, gear_module=4e-3, wheel_teeth=25.0, immersion=0.025, oil_volume=1.5e-3)
-    >>> oil = dict(viscosity=50e-6 * 850, oil_density=850.0)
+    >>> wheel = dict(face_width=0.02, gear_module=4e-3, wheel_teeth=25.0, helix_angle=0.0)
+    >>> oil = dict(viscosity=50e-6 * 850, oil_density=850.0, immersion=0.025, oil_volume=1.5e-3)
     >>> speed = np.array([1000.0, 5000.0]) * np.pi / 30
     >>> churning_both(0.05, speed, **wheel, **oil).round(1).tolist()   # 5.8 by the first law, 76 by the second
     [5.8, 76.2]
     """
     ratios = immersion / wheel_radius, oil_volume / (2.0 * wheel_radius) ** 3
     wheel = (wheel_radius, shaft_speed, face_width, gear_module, wheel_teeth)
-    slow = churning_changenet_velex(*wheel, viscosity, oil_density, 0.21, 0.60, *ratios)
-    fast = churning_at_high_speed(*wheel, oil_density, *ratios)
+    slow = churning_changenet_velex(*wheel, viscosity, oil_density, 0.21, 0.60, *ratios, helix_angle)
+    fast = churning_at_high_speed(*wheel, oil_density, *ratios, helix_angle)
     acceleration = bath_acceleration(shaft_speed, wheel_radius, face_width, gear_module)
     share = np.clip((acceleration - LOW) / (HIGH - LOW), 0.0, 1.0)
     return (1.0 - share) * slow + share * fast

@@ -108,6 +108,7 @@ def test_a_film_that_collapses_keeps_viscosity_times_speed() -> None:
 def test_churning_between_reynolds_numbers_2000_and_1e5_goes_as_boness_has_it() -> None:
     """C_m = 8.6e-4 Re^(1/3): loss as n^(10/3) nu^(-1/3)."""
     wheel = {"gear_radius": 0.05, "face_width": 0.02, "gear_module": 4e-3, "gear_teeth": 25.0, "gears_fitted": 1.0}
+    wheel["helix_angle"] = 0.0
     law = {"strength": 1.0, "viscous": -1.0 / 3.0, "surplus": 0.7, "oil_density": 850.0}
     slow, fast, thick = (
         churning(0.0, gear_speed=speed, viscosity=viscosity, **wheel, **law)
@@ -175,3 +176,14 @@ def test_starved_film_is_finite_however_sharp_and_far_the_onset(steepness: float
 
 def test_law_of_roelands_stays_a_number_for_a_liquid_that_is_none() -> None:
     assert np.isfinite(roelands_viscosity(1e9, 600e-9, 3e9))
+
+
+def test_a_helical_wheel_churns_with_flanks_longer_by_its_angle() -> None:
+    """Only the flanks grow: by 1/cos(beta), as in the area of Changenet and Velex."""
+    wheel = {"gear_radius": 0.05, "face_width": 0.02, "gear_teeth": 25.0, "gears_fitted": 1.0}
+    law = {"strength": 1.0, "viscous": 0.21, "surplus": 0.38, "viscosity": 0.017, "oil_density": 850.0}
+    bare, spur, helical = (
+        churning(0.0, gear_speed=100.0, gear_module=module, helix_angle=angle, **wheel, **law)
+        for module, angle in ((0.0, 0.0), (4e-3, 0.0), (4e-3, np.radians(30.0)))
+    )
+    assert (helical - bare) / (spur - bare) == pytest.approx(1.0 / np.cos(np.radians(30.0)), rel=1e-12)

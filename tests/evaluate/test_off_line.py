@@ -128,7 +128,7 @@ def test_bad_input_is_refused_with_the_number_that_is_wrong(tmp_path, tables, ch
 
 
 def test_a_response_near_zero_is_refused(tmp_path):
-    tables, _ = bench.recorded(replace(RIG, turns=1), 0)
+    tables, _ = bench.recorded(replace(RIG, turns=2), 0)
     response = tables["response.csv"]
     for name in ("real_um_N", "imaginary_um_N"):
         response[name] = [0.0 if 270 < f < 290 else v for f, v in zip(response["frequency_Hz"], response[name])]

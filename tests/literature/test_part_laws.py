@@ -64,7 +64,7 @@ def test_a_dipping_gear_differs_by_the_factor_that_luke_and_olver_print() -> Non
     oil, speed = (160e-6 * 850.0, 850.0), 4500 * RPM
     narrow, wide = (float(find("churning", "boness").law(0.108, speed, b, *oil, 0.054)) / speed for b in (0.015, 0.034))
     assert narrow < 75.0 < wide
-    other = find("churning", "changenet_velex").law(0.108, speed, 0.034, 3e-3, 72.0, *oil, 0.054, 0.010)
+    other = find("churning", "changenet_velex").law(0.108, speed, 0.034, 3e-3, 72.0, 0.0, *oil, 0.054, 0.010)
     assert float(other) / speed < 5.0
 
 

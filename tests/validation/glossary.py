@@ -113,6 +113,7 @@ def _of_gears(c: Contact) -> Values:
         "pinion_teeth": extras["teeth"],
         "gear_teeth": extras["teeth"] / extras["ratio"],
         "gear_module": extras["module"],
+        "helix_angle": 0.0,
         "transmitted_force": whole if c.force is c.rig.share_force else whole * c.force / c.rig.share_force,
         "load_share": c.force / whole,
         "contact_ratio": extras["contact_ratio"],

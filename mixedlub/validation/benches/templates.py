@@ -18,7 +18,7 @@ def tables() -> dict[str, str]:
     gear = calorimetric.Gear()
     bench = replace(calorimetric.Bench(), sliding=calorimetric.sliding_of_mesh(gear))
     strains = strain_gauges.recorded(replace(strain_gauges.Bench(), turns=20), strain_gauges.Tooth(), SEED)
-    slow, _ = off_line.recorded(replace(off_line.Bench(), turns=2), SEED)
+    slow, _ = off_line.recorded(replace(off_line.Bench(), turns=4), SEED)
     return {
         "calorimetric/readings.csv": as_csv(calorimetric.recorded(bench, gear, SEED)[0]),
         "strain_gauge/calibration.csv": as_csv(strains[0]),
