@@ -1,8 +1,9 @@
-"""The file of a condensed law, and where it parts from the published one."""
+"""The file of a fitted friction law, and where it parts from the published one."""
 
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 
 import numpy as np
 import pandas as pd
@@ -20,19 +21,24 @@ SMOOTH = 0.0
 
 def law_file(oil: str, found: Regression) -> str:
     """The text of the file that a study names as its `friction_coefficients`."""
+    about = f"Friction of full thermal solutions for {oil}.\nSmooth surfaces of steel. Written by `mixedlub condense`."
+    return friction_file("condensed", oil, about, found.fit, found.coefficients)
+
+
+def friction_file(law: str, oil: str, about: str, fit: Mapping[str, float], coefficients: Mapping[str, float]) -> str:
+    """The file of a fitted friction law; ``about`` says, line by line, what it was fitted to."""
     lines = [
-        f"# Friction of full thermal solutions for {oil}.",
-        "# Smooth surfaces of steel. Written by `mixedlub condense`.",
-        '# In a study: [options] friction = "condensed" and friction_coefficients = "THIS FILE".',
+        *(f"# {line}" for line in about.splitlines()),
+        f'# In a study: [options] friction = "{law}" and friction_coefficients = "THIS FILE".',
         f'schema = "{SCHEMA}"',
-        'law = "condensed"',
+        f'law = "{law}"',
         f"oil = {json.dumps(oil, ensure_ascii=False)}",
         "",
         "[fit]",
-        *(f"{name} = {_number(value)}" for name, value in found.fit.items()),
+        *(f"{name} = {_number(value)}" for name, value in fit.items()),
         "",
         "[coefficients]",
-        *(f"{name} = {_number(value)}" for name, value in found.coefficients.items()),
+        *(f"{name} = {_number(value)}" for name, value in coefficients.items()),
     ]
     return "\n".join(lines) + "\n"
 

@@ -30,10 +30,39 @@ class Regression:
     @property
     def terms(self) -> pd.DataFrame:
         """A row a term: coefficient, standard error and their ratio."""
-        names = [coefficient_name(term) for term in TERMS]
+        names = list(self.standard_errors)
         values, errors = ([of[name] for name in names] for of in (self.coefficients, self.standard_errors))
-        rows = {"term": [" ".join(term) or "1" for term in TERMS], "coefficient": names, "value": values}
+        rows = {"term": [term_in_words(name) for name in names], "coefficient": names, "value": values}
         return pd.DataFrame({**rows, "standard_error": errors, "t": np.array(values) / np.array(errors)})
+
+
+def term_in_words(name: str) -> str:
+    """The term of a coefficient.
+
+    >>> term_in_words("c_ss"), term_in_words("c_0")
+    ('s s', '1')
+    """
+    return " ".join(name.removeprefix("c_")).replace("0", "1")
+
+
+def limits_of(values: Mapping[str, np.ndarray]) -> dict[str, float]:
+    """Coefficients that bound the inputs (in their units) to what was solved or measured."""
+    return {
+        end: float(value)
+        for one in INPUTS
+        for end, value in zip(one.ends, (values[one.name].min(), values[one.name].max()), strict=True)
+    }
+
+
+def design_of(values: Mapping[str, np.ndarray]) -> pd.DataFrame:
+    """A column a term, named as its coefficient, from the inputs in their units."""
+    terms = columns({one.letter: np.log(values[one.name] / one.middle) for one in INPUTS})
+    return pd.DataFrame(np.column_stack(np.broadcast_arrays(*terms)), columns=[coefficient_name(t) for t in TERMS])
+
+
+def fitted(values: Mapping[str, np.ndarray], coefficients: Mapping[str, float]) -> np.ndarray:
+    """Friction by the law at inputs in their units."""
+    return np.asarray(condensed(*(values[one.name] * one.factor for one in INPUTS), **coefficients))
 
 
 def regression(solutions: pd.DataFrame) -> Regression:
@@ -42,19 +71,13 @@ def regression(solutions: pd.DataFrame) -> Regression:
     if len(table) < LEAST:
         raise RunError(f"{len(table)} contacts have a solution; the regression needs {LEAST}: ask for more solutions")
     values = {one.name: table[one.column].to_numpy() for one in INPUTS}
-    limits = {
-        end: float(value)
-        for one in INPUTS
-        for end, value in zip(one.ends, (values[one.name].min(), values[one.name].max()), strict=True)
-    }
-    terms = columns({one.letter: np.log(values[one.name] / one.middle) for one in INPUTS})
-    design = np.column_stack(np.broadcast_arrays(*terms))
+    design = design_of(values)
     wanted = np.log(table["friction"].to_numpy())
     out = np.arange(len(table)) % EVERY == EVERY - 1
-    found, errors = _least_squares(design[~out], wanted[~out])
+    found, errors = _least_squares(design[~out].to_numpy(), wanted[~out])
     names = [coefficient_name(term) for term in TERMS]
-    coefficients = dict(zip(names, map(float, found), strict=True)) | limits
-    table["fitted"] = condensed(*(values[one.name] * one.factor for one in INPUTS), **coefficients)
+    coefficients = dict(zip(names, map(float, found), strict=True)) | limits_of(values)
+    table["fitted"] = fitted(values, coefficients)
     table["residual_of_log"] = wanted - np.log(table["fitted"].to_numpy())
     table["left_out"] = out
     fit = _errors(table, solutions) | {"rms_of_log_of_published_terms": _published(values, wanted, out)}

@@ -98,6 +98,7 @@ COLUMNS = (
 )
 
 
+SURFACES = ("pinion_surface", "gear_surface")
 MOST_TORQUES = 24
 """Cost limit. Torques at which the load is distributed; the loss factor of others is interpolated."""
 
@@ -248,6 +249,8 @@ def _loss_table(
     """One row a reading."""
     found: dict[str, Any] = {"run": table["run"], "series": np.array(names)[index]}
     found |= {name: table[name] for name in ("torque_Nm", "speed_rpm")}
+    found |= {"oil_temperature_C": table["oil_inlet_temperature_C"]}
+    found |= {name: table[name] for name in SURFACES if name in table}
     found |= {"pitch_line_velocity_m_s": pitch_speed, "oil_heat_W": heat.oil}
     found |= interval("power_loss_W", heat.loss, heat.errors.sd(np.eye(heat.loss.size)))
     found |= {"transmitted_power_W": stages.power, "loss_factor": stages.factor}
@@ -310,10 +313,9 @@ def _figures(
 
 def _case(file: CalorimetricFile, path: Path, table: Table, heat: Heat) -> CaseDraft | None:
     """The readings as a case of gear loss, load-independent loss included."""
-    surfaces = ("pinion_surface", "gear_surface")
-    if not file.surfaces or any(name not in table for name in surfaces):
+    if not file.surfaces or any(name not in table for name in SURFACES):
         return None
-    for name in surfaces:
+    for name in SURFACES:
         check_surfaces(file.surfaces, table[name], f"{table.source}: {name}")
     loaded = table["torque_Nm"] > 0.0
     common = heat.errors.common
@@ -327,7 +329,7 @@ def _case(file: CalorimetricFile, path: Path, table: Table, heat: Heat) -> CaseD
     }
     recorded = {name: table[name][loaded] for name in ("run", "torque_Nm", "speed_rpm")}
     recorded |= {"oil_temperature_C": table["oil_inlet_temperature_C"][loaded]}
-    recorded |= {name: table[name][loaded] for name in surfaces}
+    recorded |= {name: table[name][loaded] for name in SURFACES}
     recorded |= {"setup": np.full(int(loaded.sum()), "calorimeter"), "power_loss_W": heat.loss[loaded]}
     recorded |= {"power_loss_W_sd": heat.errors.independent[loaded]}
     return case_draft(path, "gear_pair", ("gears", "lubricant", "surfaces"), recording, recorded)

@@ -52,7 +52,10 @@ class CaseDraft:
 
 @dataclass(frozen=True)
 class Evaluated:
-    """What was found: tables by the name of their file, figures by theirs, lines for the user, and a case."""
+    """What was found: tables by the name of their file, figures by theirs, lines for the user, and a case.
+
+    ``files`` are further texts by the name of their file, as friction laws for studies.
+    """
 
     title: str
     tables: Mapping[str, pd.DataFrame]
@@ -60,6 +63,7 @@ class Evaluated:
     lines: tuple[str, ...]
     notes: tuple[str, ...] = ()
     case: CaseDraft | None = None
+    files: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -85,6 +89,13 @@ class Evaluation:
         return Path(inspect.getfile(self.run)).parent / "templates" / self.name.replace("-", "_")
 
 
+BEYOND_VISCOSITY = (
+    "pressure_viscosity_per_GPa",
+    "eyring_stress_MPa",
+    "thermal_conductivity_W_mK",
+    "specific_heat_J_kgK",
+)
+"""Keys of the oil that an evaluation which reads its viscosity alone does not read."""
 FILES = ("table", "profile", "traces", "traces_along", "map", "oil")
 """Keys whose values may be files beside the one that names them."""
 

@@ -127,7 +127,8 @@ def cycle_average(
     first, last = np.ceil((along[0] - spacing) / 360.0), np.floor((along[-1] + spacing) / 360.0)
     turns = int(last - first)
     if turns < 2:
-        raise InputError("needs two whole revolutions or more, whose scatter is the error", where=f"{source}: revolution", value=turns)
+        rule = "needs two whole revolutions or more, whose scatter is the error"
+        raise InputError(rule, where=f"{source}: revolution", value=turns)
     places = 360.0 * first + step * np.arange(turns * teeth * count)
     inside = np.clip(places, along[0], along[-1])
     samples = Akima1DInterpolator(along, signal, method="makima")(inside)

@@ -115,7 +115,7 @@ condensed = friction_law(
     "contact",
     sources=0,
     status="regression of this package's own full solutions for one oil: `mixedlub condense OIL` writes a file with "
-    "the coefficients, their range and their error",
+    "the coefficients, their range and their error; `mixedlub evaluate regression` writes one of measured traction",
     coefficients=COEFFICIENTS,
     limits={one.name: (None if one.letter == "s" else one.ends[0], one.ends[1], one.factor) for one in INPUTS},
 )(_law)

@@ -22,7 +22,8 @@ _C = {
     "Löpenhaus",
     "contact",
     sources=0,
-    status="form only: no source opened prints the coefficients c1 to c9, so they are yours, fitted or measured",
+    status="form only: no source opened prints the coefficients c1 to c9, so they are yours; `mixedlub evaluate "
+    "calibration` fits them to losses of gears",
     coefficients=(
         *(Coefficient(f"c{i}", "-", meaning) for i, meaning in _C.items()),
         Coefficient("lubricant_factor", "-", "factor of the oil, X_L", 1.0),

@@ -14,12 +14,14 @@ SCHEMA, SUFFIX = "mixedlub-friction/1", ".toml"
 
 
 class FrictionFile(Section):
-    """Coefficients of a friction law that were fitted to solutions for one oil."""
+    """Coefficients of a friction law that were fitted to solutions or measurements of one oil."""
 
     schema_: Literal["mixedlub-friction/1"] = key("format of the file", example=SCHEMA, alias="schema")
-    law: Literal["condensed"] = key("the friction law that these are coefficients of", example="condensed")
-    oil: str = key("the oil of the solutions", example="m100")
-    fit: Mapping[str, Number] = key("solutions that it was fitted to, and its error on those left out", example={})
+    law: Literal["condensed", "loepenhaus"] = key(
+        "the friction law that these are coefficients of", example="condensed"
+    )
+    oil: str = key("the oil of the solutions or measurements", example="m100")
+    fit: Mapping[str, Number] = key("what it was fitted to: how many, and the errors", example={})
     coefficients: Mapping[str, Number] = key("coefficients by their names", example={"c_0": -4.0})
 
 
@@ -31,4 +33,8 @@ def coefficients_of(value: Any, info: ValidationInfo) -> Any:
     if folder is None:
         raise ValueError("is a file, which no folder is known for; give its coefficients")
     path = named_file(folder, value, "friction_coefficients")
-    return dict(parse(FrictionFile, read_toml(path), str(path)).coefficients)
+    found = parse(FrictionFile, read_toml(path), str(path))
+    wanted = info.data.get("friction", found.law)
+    if wanted != found.law:
+        raise ValueError(f"{value} has coefficients of friction = {found.law!r}, not of {wanted!r}")
+    return dict(found.coefficients)

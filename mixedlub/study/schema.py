@@ -134,7 +134,7 @@ class Options(_Laws):
     )
     friction_coefficients: Annotated[dict[str, Number], BeforeValidator(coefficients_of)] = key(
         "NAME = VALUE: coefficients of the friction law that are the user's, by the names of its page; or the file "
-        "that `mixedlub condense` wrote",
+        "that `mixedlub condense` or `mixedlub evaluate` wrote",
         {},
         example={},
     )

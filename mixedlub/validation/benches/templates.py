@@ -6,7 +6,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from mixedlub.validation.benches import calorimetric, off_line, strain_gauges, two_discs
+from mixedlub.validation.benches import calorimetric, gear_losses, off_line, strain_gauges, traction, two_discs
 from mixedlub.validation.benches.tables import as_csv
 
 SEED = 5
@@ -24,6 +24,8 @@ def tables() -> dict[str, str]:
         "strain_gauge/calibration.csv": as_csv(strains[0]),
         "strain_gauge/recording.csv": as_csv(strains[1]),
         "two_disc/readings.csv": as_csv(two_discs.recorded(two_discs.Bench(), SEED)[0]),
+        "calibration/readings.csv": as_csv(gear_losses.recorded(gear_losses.Bench(), gear, SEED)),
+        "regression/readings.csv": as_csv(traction.recorded(traction.Bench(), SEED)),
         **{f"off_line/{name}": as_csv(table) for name, table in slow.items()},
     }
 

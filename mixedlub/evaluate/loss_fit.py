@@ -1,0 +1,155 @@
+"""Coefficients of a local friction law from the load-dependent loss of gears, by bounded least squares."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from scipy.optimize import least_squares
+from scipy.stats import t as student
+
+from mixedlub.friction.loepenhaus import loepenhaus
+from mixedlub.gear import Mesh
+from mixedlub.laws.contact import line_hertz_pressure
+from profiles.errors import InputError
+
+LARGEST_CONDITION = 1e6
+"""Judgement. Condition number of the scaled derivatives above which readings do not tell coefficients apart."""
+NAMED = 0.3
+"""Judgement. Part of a coefficient in an undetermined combination from which on it is named."""
+
+
+@dataclass(frozen=True, eq=False)
+class Contacts:
+    """What the law reads at each point (n, M) of n readings, and the sliding power of the points (W)."""
+
+    entrainment_speed: np.ndarray
+    hertz_pressure: np.ndarray
+    kinematic_viscosity: np.ndarray
+    mean_roughness: np.ndarray
+    slide_roll_ratio: np.ndarray
+    radius: np.ndarray
+    sliding_power: np.ndarray
+
+    def friction(self, coefficients: Mapping[str, float], surface_factor: np.ndarray) -> np.ndarray:
+        """Friction at each point; the factor of the surface by reading."""
+        return np.asarray(
+            loepenhaus(
+                self.entrainment_speed,
+                self.hertz_pressure,
+                self.kinematic_viscosity,
+                self.mean_roughness,
+                self.slide_roll_ratio,
+                self.radius,
+                **{**coefficients, "surface_factor": 1.0},
+            )
+            * surface_factor[:, None]
+        )
+
+    def loss(self, coefficients: Mapping[str, float], surface_factor: np.ndarray) -> np.ndarray:
+        """Load-dependent loss of each reading (W)."""
+        return np.asarray((self.friction(coefficients, surface_factor) * self.sliding_power).sum(axis=1))
+
+
+def contacts_of(
+    mesh: Mesh, torque: np.ndarray, speed: np.ndarray, viscosity: np.ndarray, roughness: np.ndarray
+) -> Contacts:
+    """The points of a mesh at torques (N m) and angular speeds of the pinion, with oil and Ra of each reading."""
+    pair, omega = mesh.pair, speed[:, None]
+    entrainment, sliding = mesh.entrainment_per_speed * omega, np.abs(mesh.sliding_per_speed) * omega
+    force = mesh.load_share(torque) * torque[:, None] / pair.base_radius[0]
+    pressure = line_hertz_pressure(mesh.line_load(torque), mesh.radius, np.array(pair.reduced_modulus))
+    power = force * sliding * mesh.weight
+    radius = np.broadcast_to(mesh.radius, power.shape)
+    return Contacts(entrainment, pressure, viscosity[:, None], roughness[:, None], sliding / entrainment, radius, power)
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """Free coefficients by name with their covariance; ``at_bound`` names those that a bound holds."""
+
+    values: Mapping[str, float]
+    covariance: np.ndarray
+    at_bound: tuple[str, ...]
+    freedom: int
+    chi_square: float
+    loss: np.ndarray
+
+    @property
+    def sd(self) -> np.ndarray:
+        """Standard deviations; nan of a coefficient at a bound."""
+        held = [name in self.at_bound for name in self.values]
+        return np.where(held, np.nan, np.sqrt(np.diag(self.covariance)))
+
+    @property
+    def half_width(self) -> np.ndarray:
+        """Half widths of the 90 % intervals."""
+        return np.asarray(student.isf(0.05, self.freedom) * self.sd)
+
+    @property
+    def correlations(self) -> pd.DataFrame:
+        """How errors of the free coefficients go together."""
+        sd = self.sd
+        table = pd.DataFrame(self.covariance / np.outer(sd, sd), columns=list(self.values))
+        table.insert(0, "coefficient", list(self.values))
+        return table
+
+
+def calibrated(
+    contacts: Contacts,
+    loss: np.ndarray,
+    sd: np.ndarray | None,
+    fixed: Mapping[str, float],
+    bounds: Mapping[str, tuple[float, float]],
+    surfaces: np.ndarray,
+) -> Fit:
+    r"""The free coefficients that bring the calculated loss closest to the measured one.
+
+    .. math:: \min \sum_i \left(\frac{P_i(c) - P_{VZP,i}}{\sigma_i}\right)^2,\quad c_{low} \le c \le c_{high}
+
+    ``bounds`` are by coefficient, or by ``surface_factor.NAME``; ``surfaces`` (n,) names the surface of each reading.
+    Without ``sd`` errors are in proportion to the loss, and their size follows from the scatter; with it they are
+    widened where the readings scatter more. The covariance is that of the linearised model.
+
+    Source: "Measurement and Modelling of Friction for Cylindrical Gears with Pitch Line Velocities up to 100 m/s",
+    equation 9 and figure 8.
+    """
+    names = list(bounds)
+    low, high = (np.array([bounds[name][end] for name in names]) for end in (0, 1))
+    freedom = loss.size - len(names)
+    if freedom < 1:
+        rule = f"{len(names)} free coefficients need more readings than that"
+        raise InputError(rule, where="readings", value=loss.size)
+    scale = loss if sd is None else sd
+
+    def of(x: np.ndarray) -> np.ndarray:
+        given = dict(zip(names, x, strict=True))
+        own = {name: value for name, value in given.items() if "." not in name}
+        factor = np.array([given.get(f"surface_factor.{name}", 1.0) for name in surfaces])
+        return contacts.loss({**fixed, **own}, factor)
+
+    start = np.where(low > 0.0, np.sqrt(np.abs(low * high)), 0.5 * (low + high))
+    found = least_squares(lambda x: (of(x) - loss) / scale, start, bounds=(low, high), x_scale=high - low, xtol=1e-12)
+    free = found.active_mask == 0
+    chi_square = float(2.0 * found.cost)
+    spread = chi_square / freedom
+    covariance = np.full((len(names), len(names)), np.nan)
+    covariance[np.ix_(free, free)] = _inverse(found.jac[:, free], [n for n, f in zip(names, free) if f])
+    covariance *= spread if sd is None else max(spread, 1.0)
+    held = tuple(name for name, own in zip(names, free, strict=True) if not own)
+    values = dict(zip(names, map(float, found.x), strict=True))
+    return Fit(values, covariance, held, freedom, chi_square, of(found.x))
+
+
+def _inverse(jacobian: np.ndarray, names: list[str]) -> np.ndarray:
+    """Inverse of the normal matrix; coefficients that the readings do not tell apart are refused by name."""
+    size = np.linalg.norm(jacobian, axis=0)
+    if size.size and not size.all():
+        raise InputError("the loss does not depend on it", where="bounds", value=names[int(np.argmin(size))])
+    _, singular, turned = np.linalg.svd(jacobian / size, full_matrices=False)
+    if size.size and singular[0] > LARGEST_CONDITION * singular[-1]:
+        together = [name for name, part in zip(names, turned[-1], strict=True) if abs(part) > NAMED]
+        raise InputError("the readings do not tell these apart; fix one of them", where="bounds", value=together)
+    return np.asarray((turned.T / singular**2) @ turned / np.outer(size, size))

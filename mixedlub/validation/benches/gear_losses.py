@@ -1,0 +1,106 @@
+"""Load-dependent losses of helical gears whose flanks rub by a local law, counted line by line over the mesh."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from mixedlub.validation.benches.calorimetric import Gear
+
+Columns = dict[str, list[Any]]
+LAW = {"c1": 0.045, "c2": -0.22, "c3": 1e-4, "c4": 0.0, "c5": 0.003, "c6": 1.0, "c7": 0.25, "c8": 0.1, "c9": 0.02}
+VISCOSITY = {80.0: 7.4, 120.0: 3.7}
+"""mm2/s by temperature."""
+ROUGHNESS = {"ground": 0.4 * math.sqrt(2.0 / math.pi), "superfinished": 0.1 * math.sqrt(2.0 / math.pi)}
+"""Ra (um) of normal heights with an Rq of 0.4 and 0.1 um."""
+MODULUS = 206e9 / 0.91
+
+
+@dataclass(frozen=True)
+class Bench:
+    """Conditions, the law, the factor of the superfinished flanks, and the relative scatter of the losses.
+
+    ``steps`` divide the mesh cycle and the face.
+    """
+
+    torques: tuple[float, ...] = (300.0, 700.0, 1350.0)
+    speeds: tuple[float, ...] = (20.0, 45.0, 95.0)
+    scatter: float = 0.03
+    steps: tuple[int, int] = (40, 30)
+    finished: float = 0.85
+    law: Mapping[str, float] = field(default_factory=lambda: dict(LAW))
+
+
+def local_friction(
+    law: Mapping[str, float], speed_sum: float, pressure: float, nu: float, ra: float, ratio: float, radius: float
+) -> float:
+    """Friction of one place: m/s, N/mm2, mm2/s, um, -, mm."""
+    film = law["c4"] * nu * nu + law["c5"] * nu + law["c6"]
+    slip = ratio / ((ratio + law["c8"]) ** 2 + law["c9"])
+    load = math.exp(law["c3"] * pressure)
+    return law["c1"] * speed_sum ** law["c2"] * load * film * ra ** law["c7"] * slip * radius**0.2
+
+
+def mesh_loss(
+    gear: Gear, law: Mapping[str, float], torque: float, omega: float, nu: float, ra: float, steps: tuple[int, int]
+) -> float:
+    """Power lost to friction (W), the mean over a mesh cycle; the load is the same per length of contact line.
+
+    ``steps`` are those of the cycle and of the face.
+    """
+    phases, slices = steps
+    beta = math.radians(gear.helix_angle)
+    alpha = math.atan(math.tan(math.radians(gear.pressure_angle)) / math.cos(beta))
+    base = [gear.module / math.cos(beta) * z / 2e3 * math.cos(alpha) for z in gear.teeth]
+    centre, width = gear.centre_distance * 1e-3, gear.face_width * 1e-3
+    length = math.sqrt(centre**2 - (base[0] + base[1]) ** 2)
+    tip = [d / 2e3 for d in gear.tip_diameter]
+    start = length - math.sqrt(tip[1] ** 2 - base[1] ** 2)
+    end = math.sqrt(tip[0] ** 2 - base[0] ** 2)
+    pitch = 2.0 * math.pi * base[0] / gear.teeth[0]
+    slope = math.tan(beta) * math.cos(alpha)
+    lean, ratio = math.cos(math.atan(slope)), gear.teeth[1] / gear.teeth[0]
+    total = 0.0
+    for phase in range(phases):
+        places = []
+        for slice_ in range(slices):
+            x = start - width * slope - pitch + (phase + 0.5) / phases * pitch
+            x += (slice_ + 0.5) / slices * width * slope
+            while x < end:
+                x += pitch
+                if start < x < end:
+                    places.append(x)
+        force = torque / base[0] / lean / len(places)
+        line = force * lean / (width / slices)
+        for x in places:
+            other = length - x
+            radius = x * other / length / lean
+            pressure = math.sqrt(line * MODULUS / (2.0 * math.pi * radius)) * 1e-6
+            both = (x + other / ratio) * omega
+            slip = abs(x - other / ratio) * omega
+            friction = local_friction(law, both, pressure, nu, ra, 2.0 * slip / both, radius * 1e3)
+            total += friction * slip * force / phases
+    return total
+
+
+def recorded(bench: Bench, gear: Gear, seed: int) -> Columns:
+    """Losses of the programme with their scatter."""
+    random = np.random.default_rng(seed)
+    names = ("run", "torque_Nm", "speed_rpm", "oil_temperature_C", "load_dependent_loss_W")
+    found: Columns = {name: [] for name in (*names, "pinion_surface", "gear_surface")}
+    radius = gear.centre_distance * gear.teeth[0] / sum(gear.teeth) * 1e-3
+    for surface, factor in (("ground", 1.0), ("superfinished", bench.finished)):
+        for temperature, nu in VISCOSITY.items():
+            for speed in bench.speeds:
+                for torque in bench.torques:
+                    omega = speed / radius
+                    loss = factor * mesh_loss(gear, bench.law, torque, omega, nu, ROUGHNESS[surface], bench.steps)
+                    loss *= 1.0 + bench.scatter * random.standard_normal()
+                    row = (len(found["run"]) + 1, torque, omega * 30.0 / math.pi, temperature, loss)
+                    for name, cell in zip(found, (*row, surface, surface), strict=True):
+                        found[name].append(cell)
+    return found
