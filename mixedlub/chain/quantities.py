@@ -45,6 +45,7 @@ transmitted_force       | F_t        | N       | force at the base circle, T_1/r
 load_share              | s          | -       | share of the transmitted force that this contact point carries
 load                    | F          | N       | normal force on the contact
 line_load               | w          | N/m     | normal force per length of contact
+friction_line_load      | w_f        | N/m     | friction force per width of the contact
 path_weight             | dx/p_bt    | -       | quadrature weight along the path of contact
 mean_weight             | dx/g       | -       | weight of a plain mean over the path of contact
 mean_sliding_speed      | V_s        | m/s     | a quarter of the sum of the sliding speeds at both ends of the path
@@ -113,6 +114,7 @@ film_load_share         | L_h        | -       | share of the load that the film
 least_film_share        | L_i        | -       | share of the load below which the film's own contact leaves its regime
 flash_per_friction      | theta_mu   | K       | rise of the surfaces by sliding per unit of friction coefficient
 flash_temperature       | theta_fl   | K       | largest rise of the surfaces above their bulk in the contact by sliding
+film_rise               | theta_f    | K       | rise of the middle of the film above its walls by shear
 contact_viscosity       | eta_p      | Pa s    | viscosity of the film in the contact, of a sample under pressure
 shear_stress            | tau        | Pa      | shear stress of the film
 fluid_friction          | mu_E       | -       | friction coefficient of the film

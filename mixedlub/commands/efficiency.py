@@ -34,8 +34,8 @@ def command(
     """Efficiency of gear stages and their losses by origin.
 
     Of one stage or several in series, each with its oil, bearings, seals and wheels in oil and air: map.csv and
-    loss_map.csv over torque and speed, losses.csv by part, breakdown.csv, stages.csv and mesh_cycle.csv at one
-    condition, duty.csv of a duty cycle, and figures.
+    loss_map.csv over torque and speed, losses.csv by part, breakdown.csv, stages.csv, mesh_cycle.csv and
+    tooth_pair.csv at one condition, duty.csv of a duty cycle, and figures.
     """
     import numpy as np
 
@@ -58,6 +58,7 @@ def command(
         "breakdown": tables.breakdown_table(at),
         "stages": tables.stage_table(at),
         "mesh_cycle": tables.cycle_table(cycles),
+        "tooth_pair": tables.tooth_table(cycles),
     }
     duty = gearbox.file.duty
     if duty is not None:
@@ -107,12 +108,14 @@ def _print(made: dict[str, pd.DataFrame], at: Losses) -> None:
 
 
 def _draw(title: str, losses: Losses, cycles: list[MeshCycle], folder: Path, formats: tuple[str, ...]) -> None:
-    from mixedlub.report.efficiency import breakdown_figure, cycle_figure, map_figure
+    from mixedlub.report.efficiency import breakdown_figure, cycle_figure, efficiency_figure, map_figure, tooth_figure
     from mixedlub.report.style import save_all
 
     drawn = {
         "map": map_figure(title, losses),
         "breakdown": breakdown_figure(title, losses),
         "mesh_cycle": cycle_figure(title, cycles),
+        "tooth_pair": tooth_figure(title, cycles),
+        "efficiency": efficiency_figure(title, losses),
     }
     save_all(((name, figure) for name, figure in drawn.items() if figure is not None), folder, formats)

@@ -10,7 +10,7 @@ import numpy as np
 from mixedlub.chain.model import Model
 from mixedlub.efficiency.gearbox import Gearbox, Losses, StageModel
 from mixedlub.efficiency.meshes import LOCAL
-from mixedlub.gear import LdpSharing, Mesh, at_roll_angle
+from mixedlub.gear import GearPair, LdpSharing, Mesh, at_roll_angle
 from mixedlub.study.plan import mesh_inputs
 
 FINE = 128
@@ -18,11 +18,21 @@ FINE = 128
 
 
 @dataclass(frozen=True, eq=False)
+class ToothPair:
+    """One tooth pair over the roll angle (rad) of the pinion tooth at the front of the face: forces in N."""
+
+    roll_angle: np.ndarray
+    normal_force: np.ndarray
+    friction_force: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
 class MeshCycle:
     """Loss of a stage over one base pitch, in SI.
 
-    ``phase`` (in base pitches), ``sliding`` and ``rolling`` (W) have one entry a position; ``input_power`` is that of
-    the stage.
+    ``phase`` (in base pitches), ``sliding`` and ``rolling`` (W), ``sliding_power`` (load times sliding speed, W) and
+    ``friction_force`` (N) have one entry a position; ``pair`` is one tooth pair over its path. Friction forces are
+    those on the pinion, of all pairs in contact, positive where recess outweighs approach.
     """
 
     stage: StageModel
@@ -31,6 +41,9 @@ class MeshCycle:
     phase: np.ndarray
     sliding: np.ndarray
     rolling: np.ndarray
+    sliding_power: np.ndarray
+    friction_force: np.ndarray
+    pair: ToothPair
 
     @property
     def input_power(self) -> float:
@@ -41,6 +54,11 @@ class MeshCycle:
     def efficiency(self) -> np.ndarray:
         """Tooth efficiency at each position; its mean is that of the cycle."""
         return 1.0 - (self.sliding + self.rolling) / self.input_power
+
+    @property
+    def friction(self) -> np.ndarray:
+        """Friction coefficient of the mesh at each position, weighted with load times sliding speed."""
+        return self.sliding / self.sliding_power
 
     @property
     def roll_angle(self) -> np.ndarray:
@@ -64,19 +82,36 @@ def mesh_cycle(stage: StageModel, torque: float, speed: float, positions: int) -
     place = pair.path_start + step * (np.arange(count) + 0.5)
     points = at_roll_angle(pair, stage.study.rig.sharing, place / pair.base_radius[0], slices=_slices(stage))
     slices = points.slices
-    sliding, rolling = _at_points(stage, torque, speed, points)
+    found = _at_points(stage, torque, speed, points).reshape(-1, count, slices)
     whole = -(-count // positions) * positions
-    both = np.zeros((2, whole, slices))
-    both[:, :count] = np.array([sliding, rolling]).reshape(2, count, slices)
-    both = both.reshape(2, -1, positions, slices).sum(axis=1)
+    every = np.zeros((len(found), whole, slices))
+    every[:, :count] = found
+    every = every.reshape(len(found), -1, positions, slices).sum(axis=1)
     phase = (np.arange(positions) + 0.5) / positions
     # Slices of a helical pair follow the front of the face by whole and broken parts of a base pitch.
     lag = points.face_position[:slices] * math.tan(abs(pair.base_helix_angle)) / pair.base_pitch
-    total = np.zeros((2, positions))
+    total = np.zeros((len(found), positions))
     for index in range(slices):
-        for one in range(2):
-            total[one] += np.interp((phase + lag[index]) % 1.0, phase, both[one, :, index], period=1.0)
-    return MeshCycle(stage, torque, speed, phase, *total)
+        for one in range(len(found)):
+            total[one] += np.interp((phase + lag[index]) % 1.0, phase, every[one, :, index], period=1.0)
+    sliding, rolling, power, force, _ = total
+    tooth = _tooth_pair(pair, place, lag * pair.base_pitch, found[3:])
+    return MeshCycle(stage, torque, speed, phase, sliding, rolling, power, force, tooth)
+
+
+def _tooth_pair(pair: GearPair, place: np.ndarray, lag: np.ndarray, forces: np.ndarray) -> ToothPair:
+    """Friction and normal force of one pair: sums over slices that come later by ``lag`` (m) of the path."""
+    step = place[1] - place[0]
+    places, later = np.arange(place.size), lag / step
+    front = np.arange(-math.ceil(later[-1]), place.size)
+    friction, normal = (
+        sum(
+            (np.interp(front + late, places, one[:, n], left=0.0, right=0.0) for n, late in enumerate(later)),
+            np.zeros(front.size),
+        )
+        for one in forces
+    )
+    return ToothPair((place[0] + step * front) / pair.base_radius[0], normal, friction)
 
 
 def _slices(stage: StageModel) -> int:
@@ -87,8 +122,11 @@ def _slices(stage: StageModel) -> int:
     return FINE
 
 
-def _at_points(stage: StageModel, torque: float, speed: float, points: Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """Sliding and rolling loss (W) of one tooth pair at each slice of contact points."""
+def _at_points(stage: StageModel, torque: float, speed: float, points: Mesh) -> np.ndarray:
+    """Of one tooth pair at each slice of contact points (5, M).
+
+    Sliding loss, rolling loss and sliding power (W), friction force on the pinion and normal force (N).
+    """
     plan = stage.study.plan
     own, turning = stage.of_pinion(np.array([torque]), np.array([speed]))
     share = points.load_share(own)[None, None, :, None, :]
@@ -102,9 +140,10 @@ def _at_points(stage: StageModel, torque: float, speed: float, points: Mesh) -> 
     friction, resistance = (np.broadcast_to(np.ravel(state[name]), points.position.shape) for name in LOCAL)
     force = (share * inputs["transmitted_force"]).ravel()
     oblique = math.cos(stage.pair.base_helix_angle)
-    sliding = friction * force * inputs["sliding_speed"].ravel() / oblique
+    normal = force / oblique
+    power = normal * inputs["sliding_speed"].ravel()
     rolling = resistance * points.contact_width * 2.0 * inputs["entrainment_speed"].ravel() / oblique
-    return sliding, rolling
+    return np.array([friction * power, rolling, power, friction * normal * np.sign(points.sliding_per_speed), normal])
 
 
 def mesh_cycles(gearbox: Gearbox, at: Losses) -> list[MeshCycle]:

@@ -98,7 +98,7 @@ def stage_table(at: Losses) -> pd.DataFrame:
 
 
 def cycle_table(cycles: Sequence[MeshCycle]) -> pd.DataFrame:
-    """Loss and tooth efficiency of each stage over one base pitch."""
+    """Loss, tooth efficiency, friction of the mesh and friction force of each stage over one base pitch."""
     return pd.concat(
         [
             pd.DataFrame(
@@ -110,6 +110,26 @@ def cycle_table(cycles: Sequence[MeshCycle]) -> pd.DataFrame:
                     "sliding_loss_W": one.sliding,
                     "rolling_loss_W": one.rolling,
                     "tooth_efficiency_percent": 100.0 * one.efficiency,
+                    "mesh_friction": one.friction,
+                    "friction_force_N": one.friction_force,
+                }
+            )
+            for one in cycles
+        ],
+        ignore_index=True,
+    )
+
+
+def tooth_table(cycles: Sequence[MeshCycle]) -> pd.DataFrame:
+    """Forces of one tooth pair of each stage over its way through the mesh, friction on the pinion."""
+    return pd.concat(
+        [
+            pd.DataFrame(
+                {
+                    "stage": one.stage.name,
+                    "roll_angle_deg": np.degrees(one.pair.roll_angle),
+                    "normal_force_N": one.pair.normal_force,
+                    "friction_force_N": one.pair.friction_force,
                 }
             )
             for one in cycles

@@ -4,7 +4,7 @@ import numpy as np
 
 from mixedlub.chain.friction_law import friction_law
 from mixedlub.laws.contact import mean_hertz_pressure
-from mixedlub.laws.heating import contact_softening
+from mixedlub.laws.heating import shear_heating
 
 
 @friction_law(
@@ -42,8 +42,7 @@ def crook(
     >>> round(float(hot / slow), 5)
     0.62323
     """
-    beta = contact_softening(temperature_viscosity, viscosity, contact_viscosity)
-    square = beta * contact_viscosity * sliding_speed**2 / (8.0 * oil_conductivity)
+    square = shear_heating(contact_viscosity, viscosity, temperature_viscosity, oil_conductivity, sliding_speed)
     x = np.sqrt(np.maximum(square, 1e-16))
     newtonian = contact_viscosity * sliding_speed / film_thickness / mean_hertz_pressure(hertz_pressure)
     return newtonian * np.arcsinh(x) / (x * np.sqrt(1.0 + x**2))

@@ -29,6 +29,48 @@ def contact_softening(
     return temperature_viscosity * (1.0 + np.log(contact_viscosity / viscosity) / (np.log(viscosity) + ROELANDS_LOG))
 
 
+def shear_heating(
+    contact_viscosity: np.ndarray,
+    viscosity: np.ndarray,
+    temperature_viscosity: np.ndarray,
+    oil_conductivity: np.ndarray | float,
+    sliding_speed: np.ndarray,
+) -> np.ndarray:
+    r"""Number by which shear heats a Newtonian film between walls of one temperature (-), :math:`x^2`.
+
+    .. math:: x^2 = \frac{\beta_p\,\eta_p\,v_s^2}{8 k_f}
+
+    Source: A. W. Crook, Phil. Trans. R. Soc. A 254 (1961) 237.
+
+    >>> float(shear_heating(10.0, 10.0, 0.04, 0.125, 1.0))   # without pressure the slope is that of the oil
+    0.4
+    """
+    beta = contact_softening(temperature_viscosity, viscosity, contact_viscosity)
+    return beta * contact_viscosity * sliding_speed**2 / (8.0 * oil_conductivity)
+
+
+def film_rise(
+    contact_viscosity: np.ndarray,
+    viscosity: np.ndarray,
+    temperature_viscosity: np.ndarray,
+    oil_conductivity: np.ndarray | float,
+    sliding_speed: np.ndarray,
+) -> np.ndarray:
+    r"""Rise of the middle of a Newtonian film above its walls by shear (K); the walls keep the oil's temperature.
+
+    .. math:: \Delta\theta = \frac{1}{\beta_p}\ln(1 + x^2)
+
+    Source: A. W. Crook, Phil. Trans. R. Soc. A 254 (1961) 237, the film with heat conducted to its walls.
+
+    >>> softening = 1 + np.log(10.0 / 0.02) / (np.log(0.02) + 9.67)
+    >>> round(float(film_rise(10.0, 0.02, 0.04 / softening, 0.125, 1.0)), 2)   # ln(1.4)/0.04
+    8.41
+    """
+    beta = contact_softening(temperature_viscosity, viscosity, contact_viscosity)
+    given = contact_viscosity, viscosity, temperature_viscosity, oil_conductivity, sliding_speed
+    return np.log1p(shear_heating(*given)) / beta
+
+
 def flash_temperature(
     heat_flux: np.ndarray,
     hertz_half_width: np.ndarray,

@@ -43,6 +43,17 @@ def averaged_sliding_power(
     return mean_weight * (mean_sliding_speed * transmitted_force)
 
 
+def friction_line_load(friction: np.ndarray, line_load: np.ndarray) -> np.ndarray:
+    r"""Friction force per width of the contact (N/m), :math:`w_f = \mu w`, against the sliding.
+
+    Source: H. Xu, PhD thesis, Ohio State University, 2005, eq. 2.13.
+
+    >>> float(friction_line_load(0.05, 2e5))
+    10000.0
+    """
+    return friction * line_load
+
+
 def mesh_loss(friction: np.ndarray, sliding_power: np.ndarray) -> np.ndarray:
     r"""Sliding power lost in the mesh, mean over a mesh cycle (W), :math:`P_m = \sum \mu\, F |v_s|\, dx / p_{bt}`.
 

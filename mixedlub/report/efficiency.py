@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from mixedlub.efficiency.mesh_cycle import MeshCycle
 
 LEVELS = 12
+CURVES = 5
+"""Most curves of a figure of the efficiency."""
 LEAST_LEVELS = 2
 """Fewest torques and speeds that a map is drawn of."""
 
@@ -78,20 +80,66 @@ def _stacked(axis: Axes, losses: Losses, across: np.ndarray, chosen: np.ndarray)
     axis.set_xlim(place.min(), place.max())
 
 
-def cycle_figure(title: str, cycles: Sequence[MeshCycle]) -> Figure:
-    """Sliding and rolling loss of each stage over one base pitch, and its tooth efficiency."""
+def efficiency_figure(title: str, losses: Losses) -> Figure:
+    """Tooth efficiency over torque at some speeds, and over speed at some torques."""
+    torque, speed = losses.torque, losses.speed * RPM
+    axes_of = ((torque, speed, "input torque (N m)", "rpm"), (speed, torque, "input speed (rpm)", "N m"))
     with styled():
-        figure, axes, _ = panels(2, 2, height=2.6, sharey=False)
+        figure, axes, _ = panels(2, 2, height=2.9, sharex=False, sharey=True)
+        for axis, (across, other, words, unit) in zip(axes, axes_of, strict=True):
+            levels = _some(other[torque > 0.0])
+            for level, colour in zip(levels, shades(len(levels)), strict=True):
+                rows = (other == level) & (torque > 0.0)
+                order = np.argsort(across[rows])
+                value = 100.0 * losses.efficiency(MESH)[rows][order]
+                axis.plot(across[rows][order], value, "o-", color=colour, markersize=3.0, label=f"{level:.4g} {unit}")
+            axis.set_xlabel(words)
+            axis.legend(fontsize=SMALL)
+        axes[0].set_ylabel("tooth efficiency (%)")
+        figure.suptitle(title, fontsize=SMALL, x=0.01, ha="left")
+    return figure
+
+
+def _some(values: np.ndarray) -> np.ndarray:
+    """Up to `CURVES` levels, evenly spread."""
+    levels = np.unique(values)
+    return levels[np.unique(np.linspace(0, len(levels) - 1, CURVES).round().astype(int))] if levels.size else levels
+
+
+def cycle_figure(title: str, cycles: Sequence[MeshCycle]) -> Figure:
+    """Losses, tooth efficiency, friction of the mesh and friction force of each stage over one base pitch."""
+    with styled():
+        figure, axes, _ = panels(4, 2, height=2.6, sharey=False)
         for one, colour in zip(cycles, shades(len(cycles)), strict=True):
             name = f"{one.stage.name}, {one.stage.driving} drives"
             axes[0].plot(one.phase, one.sliding, color=colour, label=f"{name}: sliding")
             axes[0].plot(one.phase, one.rolling, color=colour, linestyle="--", label=f"{name}: rolling")
             axes[1].plot(one.phase, 100.0 * one.efficiency, color=colour)
             axes[1].axhline(100.0 * one.efficiency.mean(), color=colour, linestyle=":", linewidth=0.9)
+            axes[2].plot(one.phase, one.friction, color=colour)
+            axes[3].plot(one.phase, one.friction_force, color=colour)
+        axes[2].set_ylabel("friction coefficient of the mesh (-)")
+        axes[3].set_ylabel("friction force on the pinion (N)")
         axes[0].set_ylabel("loss of the mesh (W)")
         axes[0].set_ylim(bottom=0.0)
         axes[1].set_ylabel("tooth efficiency (%); dotted: mean")
         for axis in axes:
             axis.set_xlabel("turn of the mesh (base pitches)")
+        legend_above(figure, axes[0], title, columns=4)
+    return figure
+
+
+def tooth_figure(title: str, cycles: Sequence[MeshCycle]) -> Figure:
+    """Normal and friction force of one tooth pair of each stage over the roll angle of the pinion."""
+    with styled():
+        figure, axes, _ = panels(2, 2, height=2.6, sharey=False)
+        for one, colour in zip(cycles, shades(len(cycles)), strict=True):
+            angle = np.degrees(one.pair.roll_angle)
+            axes[0].plot(angle, one.pair.normal_force, color=colour, label=one.stage.name)
+            axes[1].plot(angle, one.pair.friction_force, color=colour)
+        axes[0].set_ylabel("normal force of a tooth pair (N)")
+        axes[1].set_ylabel("friction force on the pinion (N)")
+        for axis in axes:
+            axis.set_xlabel("roll angle of the pinion (deg)")
         legend_above(figure, axes[0], title, columns=4)
     return figure

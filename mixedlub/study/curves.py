@@ -45,6 +45,8 @@ ALONG_PATH = (
     _of("shear_stress", "shear_stress_MPa", 1e-6),
     _of("fluid_friction"),
     _of("friction"),
+    _of("friction_line_load", "friction_line_load_N_mm", 1e-3),
+    _of("film_rise", "film_rise_K"),
     _of("flash_temperature", "flash_temperature_K"),
 )
 """Columns of the quantities of a contact point."""

@@ -16,7 +16,7 @@ from mixedlub.friction import BASE, catalogue, find
 from mixedlub.gear.mesh import Mesh, at_roll_angle
 from mixedlub.schema.toml_file import parse
 from mixedlub.study.friction_options import check_coefficients
-from mixedlub.study.options import with_friction
+from mixedlub.study.options import FURTHER, with_friction
 from mixedlub.study.plan import Study, condition_inputs, read_study, surface_inputs
 from mixedlub.study.results import Results, run_study
 from mixedlub.study.schema import Conditions, Options, Pairings
@@ -35,6 +35,7 @@ COLUMNS = {
     "sliding_speed": ("sliding_speed_m_s", 1.0),
     "entrainment_speed": ("entrainment_speed_m_s", 1.0),
     "hertz_pressure": ("hertz_pressure_MPa", 1e-6),
+    "film_rise": ("crook_film_rise_K", 1.0),
 }
 """Columns of a contact point, and the factor from SI to their unit."""
 
@@ -97,7 +98,7 @@ class Comparison:
         for law in self.laws:
             own = law.with_coefficients(self.coefficients.get(law.name, {}))
             steps = chain if law.name == BASE else with_friction(film_alone, own)
-            model = Model(steps, tuple(given), tuple(dict.fromkeys((*law.checked, *COLUMNS))))
+            model = Model((*steps, *FURTHER), tuple(given), tuple(dict.fromkeys((*law.checked, *COLUMNS))))
             with np.errstate(all="ignore"):
                 state = model(given)
                 friction = np.broadcast_to(np.asarray(state["friction"], float).ravel(), place.shape)

@@ -99,6 +99,8 @@ def with_rough_film(base: Chain) -> Chain:
 
 FURTHER: Chain = (
     ("flash_temperature", heating.largest_flash_temperature),
+    ("film_rise", heating.film_rise),
+    ("friction_line_load", loss.friction_line_load),
     ("sliding_integral", loss.sliding_integral),
     ("load_loss_factor", loss.load_loss_factor),
 )

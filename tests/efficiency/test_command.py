@@ -14,7 +14,7 @@ from mixedlub.cli import main
 from mixedlub.parts import catalogue, series
 from tests.efficiency.gearboxes import PARTS, STAGE, gearbox_file, written
 
-TABLES = {"map", "loss_map", "losses", "breakdown", "stages", "mesh_cycle"}
+TABLES = {"map", "loss_map", "losses", "breakdown", "stages", "mesh_cycle", "tooth_pair"}
 DUTY = {"torque_Nm": [150.0, 0.0], "speed_rpm": [1000.0, 3000.0], "duration_h": [10.0, 5.0]}
 
 
@@ -28,14 +28,16 @@ def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_it_writes_tables_and_figures(out: Path) -> None:
     assert {path.stem for path in out.glob("*.csv")} == TABLES | {"duty", "duty_summary"}
-    assert {path.name for path in (out / "figures").iterdir()} == {"map.svg", "breakdown.svg", "mesh_cycle.svg"}
+    assert {path.name for path in (out / "figures").iterdir()} == {
+        *("map.svg", "breakdown.svg", "mesh_cycle.svg", "tooth_pair.svg", "efficiency.svg")
+    }
 
 
 def test_columns_have_their_unit(out: Path) -> None:
-    bare = {"stage", "origin", "part", "law", "driving", "driven", "ratio", "base_pitches", "validity"}
+    bare = {"stage", "origin", "part", "law", "driving", "driven", "ratio", "base_pitches", "validity", "mesh_friction"}
     for path in out.glob("*.csv"):
         for name in pd.read_csv(path).columns:
-            assert name in bare or name.endswith(("_Nm", "_rpm", "_W", "_percent", "_deg", "_kWh", "_h")), name
+            assert name in bare or name.endswith(("_Nm", "_rpm", "_W", "_percent", "_deg", "_kWh", "_h", "_N")), name
 
 
 def test_losses_written_add_up(out: Path) -> None:

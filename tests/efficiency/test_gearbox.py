@@ -177,6 +177,30 @@ class TestMeshCycle:
         assert helical.mean() == pytest.approx(spur.mean(), rel=1e-3)
 
 
+class TestForces:
+    @pytest.mark.parametrize("helix", [0.0, 15.0])
+    def test_normal_forces_of_all_pairs_are_the_force_of_the_torque(self, folder: Path, helix: float) -> None:
+        gears = {"teeth": [20, 30], "normal_module_mm": 3.5, "helix_angle_deg": helix, "face_width_mm": 23.0}
+        stage = gearbox(folder, STAGE | {"gears": gears}).stages[0]
+        positions = 200
+        cycle = mesh_cycle(stage, 100.0, 200.0, positions)
+        count = -(-cycle.pair.normal_force.size // positions) * positions
+        folded = np.zeros(count)
+        folded[: cycle.pair.normal_force.size] = cycle.pair.normal_force
+        total = folded.reshape(-1, positions).sum(axis=0)
+        whole = 100.0 / stage.pair.base_radius[0] / np.cos(stage.pair.base_helix_angle)
+        assert total == pytest.approx(np.full(positions, whole), rel=0.02 if helix else 1e-6)
+
+    def test_constant_friction_is_that_of_the_mesh_and_turns_round_at_the_pitch_point(self, folder: Path) -> None:
+        law = {"friction": "constant", "friction_coefficients": {"friction": 0.05}}
+        stage = gearbox(folder, STAGE | {"options": law}).stages[0]
+        cycle = mesh_cycle(stage, 100.0, 200.0, 200)
+        assert cycle.friction == pytest.approx(np.full(200, 0.05), rel=1e-9)
+        one = cycle.pair
+        side = np.sign(one.roll_angle - stage.pair.pitch_point / stage.pair.base_radius[0])
+        assert one.friction_force == pytest.approx(0.05 * side * one.normal_force, rel=1e-9)
+
+
 class TestDuty:
     def test_energies_are_power_times_time(self, box: Gearbox) -> None:
         torque, speed, hours = np.array([200.0, 0.0]), np.array([100.0, 300.0]), np.array([2.0, 10.0])
