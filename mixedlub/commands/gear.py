@@ -68,7 +68,7 @@ def command(
             if len(table):
                 table.to_csv(aside / f"{name}.csv", index=False, lineterminator="\n", float_format="%.8g")
         if figures:
-            _draw(problem.file.title, found, made["transmission_error"], aside, formats)
+            _draw(problem.file.title, found, made, aside, formats)
     if found.distribution is None:
         note('rigid teeth or a table: no transmission error and no stiffness; model = "ldp" has them')
     for row in made["summary"].head(MOST_PRINTED).to_dict("records"):
@@ -88,12 +88,15 @@ def _line(row: dict[str, float]) -> str:
     )
 
 
-def _draw(title: str, found: ToothContact, transmission: pd.DataFrame, folder: Path, formats: tuple[str, ...]) -> None:
-    from mixedlub.report.gear import distribution_figure, pattern_figure
+def _draw(
+    title: str, found: ToothContact, made: dict[str, pd.DataFrame], folder: Path, formats: tuple[str, ...]
+) -> None:
+    from mixedlub.report.gear import distribution_figure, loss_factor_figure, pattern_figure
     from mixedlub.report.style import save_all
 
     drawn = {
-        "load_distribution": distribution_figure(title, found, transmission),
+        "load_distribution": distribution_figure(title, found, made["transmission_error"]),
         "contact_pattern": pattern_figure(title, found),
+        "loss_factors": loss_factor_figure(title, made["loss_factors"]),
     }
     save_all(drawn.items(), folder, formats)

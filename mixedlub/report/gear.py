@@ -53,6 +53,22 @@ def distribution_figure(title: str, found: ToothContact, transmission: pd.DataFr
     return figure
 
 
+def loss_factor_figure(title: str, factors: pd.DataFrame) -> Figure:
+    """Loss factor of the local load over torque, and the closed ones that hold."""
+    local = factors[factors["torque_Nm"].notna()]
+    closed = factors[factors["torque_Nm"].isna() & ~factors["outside_range"].astype(bool)]
+    with styled():
+        figure, (axis,), _ = panels(1, 1, height=2.9)
+        axis.plot(local["torque_Nm"], local["value"], "o-", color="C0", label="local load")
+        for row, colour in zip(closed.itertuples(), shades(max(len(closed), 1)), strict=False):
+            axis.axhline(row.value, color=colour, linestyle="--", linewidth=0.9, label=str(row.loss_factor))
+        axis.set_xlabel("torque on the pinion (N m)")
+        axis.set_ylabel("tooth loss factor (-)")
+        axis.set_ylim(bottom=0.0)
+        legend_above(figure, axis, title, columns=3)
+    return figure
+
+
 def pattern_figure(title: str, found: ToothContact) -> Figure:
     """Hertz pressure over the flank, a panel a torque: where a tooth pair touches on its way through the mesh."""
     from matplotlib.figure import Figure

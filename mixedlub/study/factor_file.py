@@ -38,6 +38,32 @@ class Factors(Section):
     tip_relief_um: Numbers | None = key(
         "tip relief of both wheels; load_sharing of the study has its length", None, example=[10, 30], alternative=True
     )
+    gears: Names | None = key(
+        "gears, by name; each takes the place of [gears], whose load_sharing stays",
+        None,
+        example=["high_speed_a", "high_speed_b"],
+        alternative=True,
+    )
+    pressure_angle_deg: Numbers | None = key("normal pressure angles", None, example=[20, 25], alternative=True)
+    helix_angle_deg: Numbers | None = key("helix angles", None, example=[0, 20], alternative=True)
+    centre_distance_mm: Numbers | None = key(
+        "working centre distances of the same wheels", None, example=[91.0, 91.3], alternative=True
+    )
+    lead_crown_um: Numbers | None = key(
+        "crowns over the face; elastic load sharing", None, example=[0, 10], alternative=True
+    )
+    misalignment_um: Numbers | None = key(
+        "misalignments over the face width; elastic load sharing", None, example=[0, 20], alternative=True
+    )
+    profile_slope_deviation_um: Numbers | None = key(
+        "profile slope deviations of the pinion; elastic load sharing", None, example=[-8, 8], alternative=True
+    )
+    friction: Names | None = key(
+        "friction laws, by name, of which none asks for coefficients",
+        None,
+        example=["tallian_mixture", "xu_kahraman"],
+        alternative=True,
+    )
     cutoff_mm: Numbers | None = key("long cut-off of all traces", None, example=[0.25, 0.8], alternative=True)
     short_cutoff_um: Numbers | None = key("short cut-off of all traces", None, example=[2.5, 8.0], alternative=True)
     replicate: Seeds | None = key(

@@ -142,24 +142,33 @@ def _told(level: Any) -> str:
     return f"{level:g}" if isinstance(level, float) else str(level)
 
 
-def _set_friction(content: dict[str, Any], level: float) -> None:
-    content["boundary_friction"] = level
+def _set_key(*place: str) -> Callable[[dict[str, Any], Any], None]:
+    """The setter of one key within tables, which are made where they are missing."""
+
+    def change(content: dict[str, Any], level: Any) -> None:
+        table = content
+        for name in place[:-1]:
+            table = table.setdefault(name, {})
+        table[place[-1]] = level
+
+    return change
 
 
 def _set_oil(content: dict[str, Any], level: str) -> None:
     content["lubricant"] = {"oil": level}
 
 
-def _set_width(content: dict[str, Any], level: float) -> None:
-    content["gears"]["face_width_mm"] = level
-
-
-def _set_sharing(content: dict[str, Any], level: str) -> None:
-    content["gears"].setdefault("load_sharing", {})["model"] = level
+def _set_gears(content: dict[str, Any], level: str) -> None:
+    kept = {name: content["gears"][name] for name in ("load_sharing",) if name in content["gears"]}
+    content["gears"] = {"preset": level, **kept}
 
 
 def _set_relief(content: dict[str, Any], level: float) -> None:
     content["gears"].setdefault("load_sharing", {})["tip_relief_um"] = [level, level]
+
+
+def _set_slope(content: dict[str, Any], level: float) -> None:
+    content["gears"].setdefault("load_sharing", {})["profile_slope_deviation_um"] = [level, 0.0]
 
 
 def _set_cutoff(key: str) -> Callable[[dict[str, Any], float], None]:
@@ -191,11 +200,18 @@ def _traced(content: Mapping[str, Any], factor: str) -> dict[str, dict[str, Any]
 
 
 _SETTERS: Mapping[str, Callable[[dict[str, Any], Any], None]] = {
-    "boundary_friction": _set_friction,
+    "boundary_friction": _set_key("boundary_friction"),
     "oil": _set_oil,
-    "face_width_mm": _set_width,
-    "load_sharing": _set_sharing,
+    "friction": _set_key("options", "friction"),
+    "gears": _set_gears,
+    **{
+        key: _set_key("gears", key)
+        for key in ("face_width_mm", "pressure_angle_deg", "helix_angle_deg", "centre_distance_mm")
+    },
+    "load_sharing": _set_key("gears", "load_sharing", "model"),
     "tip_relief_um": _set_relief,
+    "profile_slope_deviation_um": _set_slope,
+    **{key: _set_key("gears", "load_sharing", key) for key in ("lead_crown_um", "misalignment_um")},
     **{key: _set_cutoff(key) for key in ("cutoff_mm", "short_cutoff_um")},
     **{key: _set_condition(key) for key in OVER},
 }

@@ -102,7 +102,8 @@ class TestCommand:
         assert len(pd.read_csv(out / "transmission_error.csv")) == 32
         factors = pd.read_csv(out / "loss_factors.csv")
         assert set(factors["loss_factor"]) >= {"ohlendorf", "niemann_winter", "buckingham", "iso_tr_14179_1", "local"}
-        assert {path.name for path in (out / "figures").iterdir()} == {"load_distribution.svg", "contact_pattern.svg"}
+        drawn = {"load_distribution.svg", "contact_pattern.svg", "loss_factors.svg"}
+        assert {path.name for path in (out / "figures").iterdir()} == drawn
 
     def test_a_study_reads_its_load_share(self, tmp_path, capsys):
         run(tmp_path, capsys, FILE, "--no-figures")

@@ -111,6 +111,22 @@ def test_oils_relief_and_sharing_are_varied(write_factors):
     assert shared.groupby("factor_load_sharing")["loss_factor_H_VL"].mean().nunique() == 2
 
 
+def test_geometry_errors_and_friction_laws_are_varied(write_factors):
+    path = write_factors({"gears": ["fzg_a", "fzg_c"], "friction": ["tallian_mixture", "schlenk"]})
+    table, _ = full_factorial(experiment(path))
+    factors = table.groupby("factor_gears")["loss_factor_H_VL"].mean()
+    assert factors["fzg_a"] > 1.5 * factors["fzg_c"]
+    assert table.groupby("factor_friction")["mean_friction"].mean().nunique() == 2
+    angles = {"pressure_angle_deg": [20, 25], "helix_angle_deg": [0, 15]}
+    table, _ = full_factorial(experiment(write_factors(angles)))
+    losses = table.groupby("factor_pressure_angle_deg")["mesh_loss_W"].mean()
+    assert losses[25.0] < losses[20.0]
+    errors = {"lead_crown_um": [0, 15], "misalignment_um": [0, 20], "profile_slope_deviation_um": [-8, 8]}
+    table, _ = full_factorial(experiment(write_factors(errors, gears__load_sharing=LDP)))
+    for name in errors:
+        assert table.groupby(f"factor_{name}")["mesh_loss_W"].mean().nunique() == 2
+
+
 TRACED = {"surfaces": {"t": {"profile": "shipped:0258", "cutoff_mm": 0.8, "short_cutoff_um": 2.5}}}
 
 
