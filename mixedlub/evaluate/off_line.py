@@ -20,7 +20,7 @@ from mixedlub.evaluate.uncertainty import ends_of, interval
 from mixedlub.rig.build import gear_pair, sharing
 from mixedlub.schema.findings import collected
 from mixedlub.schema.section import Number, Section, Whole, key
-from mixedlub.schema.table import Column, read_table
+from mixedlub.schema.table import Column, Table, read_table
 from mixedlub.schema.toml_file import named_file
 from profiles.errors import InputError
 
@@ -141,12 +141,17 @@ def coupling_of(direction: np.ndarray, force: np.ndarray, displacement: np.ndarr
     return float(np.mean(slopes)), math.sqrt(variance)
 
 
-def _coupling(file: OffLineFile, folder: Path) -> tuple[float, float]:
+def _static(file: OffLineFile, folder: Path) -> Table | None:
     if file.shaft.static is None:
+        return None
+    return read_table(named_file(folder, file.shaft.static, "shaft.static"), STATIC, key=())
+
+
+def _coupling(static: Table | None) -> tuple[float, float]:
+    if static is None:
         return 0.0, 0.0
-    table = read_table(named_file(folder, file.shaft.static, "shaft.static"), STATIC, key=())
-    direction, force, displacement = (table[c.name] for c in STATIC)
-    return coupling_of(direction, force, displacement, table.source)
+    direction, force, displacement = (static[c.name] for c in STATIC)
+    return coupling_of(direction, force, displacement, static.source)
 
 
 def _average(one: MeshRecording, teeth: int, samples: int, folder: Path) -> Average:
@@ -164,7 +169,8 @@ def run(file: OffLineFile, path: Path) -> Evaluated:
     """Average mesh cycle, division by the response, and friction of every recording."""
     with collected() as findings:
         pair, shared = gear_pair(file.gears), sharing(file.gears.load_sharing, path.parent)
-    response, (coupling, coupling_sd) = _response(file, path.parent), _coupling(file, path.parent)
+    response, static = _response(file, path.parent), _static(file, path.parent)
+    coupling, coupling_sd = _coupling(static)
     notes = [str(one) for one in dict.fromkeys(findings)]
     leak = abs(coupling / abs(response.value[0]))
     if leak > LEAK:
@@ -197,7 +203,7 @@ def run(file: OffLineFile, path: Path) -> Evaluated:
         found = friction_of_cycle(average, divided, pattern, coupling * line, meters, name)
         forces.append(_force_table(name, one, found, average))
         local.append(_local_table(name, one, found, pattern.roll_angle))
-        summary.append(_summary(name, one, found, divided.inverse.size - 1))
+        summary.append(_summary(name, one, found, divided.inverse.size - 1) | {"coupling_percent": 100.0 * leak})
     tables = {
         "friction_force": pd.concat(forces, ignore_index=True),
         "friction": pd.concat(local, ignore_index=True),
@@ -207,7 +213,7 @@ def run(file: OffLineFile, path: Path) -> Evaluated:
     if case is None:
         notes.append("no case folder: it needs local_points above 1, [lubricant], and surfaces of each recording")
     return Evaluated(
-        file.title, tables, _figures(file, tables), tuple(_lines(tables["recordings"])), tuple(notes), case
+        file.title, tables, _figures(file, tables, static), tuple(_lines(tables["recordings"])), tuple(notes), case
     )
 
 
@@ -216,6 +222,7 @@ def _force_table(name: str, one: MeshRecording, found: Found, average: Average) 
         "recording": name,
         "shaft_angle_deg": average.angle,
         "roll_angle_deg": one.roll_angle_at_pulse_deg + average.angle,
+        "off_line_displacement_um": average.mean[:, 0],
         **interval("friction_force_N", found.force, found.force_sd),
         "fitted_friction_force_N": found.fitted,
     }
@@ -256,20 +263,34 @@ def _lines(recordings: pd.DataFrame) -> Iterator[str]:
         )
 
 
-def _figures(file: OffLineFile, tables: dict[str, pd.DataFrame]) -> dict[str, tuple[Panel, ...]]:
-    force, friction = [], []
+def _figures(file: OffLineFile, tables: dict[str, pd.DataFrame], static: Table | None) -> dict[str, tuple[Panel, ...]]:
+    """Displacement and force of the mesh cycle, local friction, and the static test where there is one."""
+    force, friction, moved = [], [], []
     for group, name in enumerate(file.recordings):
         own, local = (tables[t][tables[t]["recording"] == name] for t in ("friction_force", "friction"))
         x = own["roll_angle_deg"].to_numpy()
+        moved.append(Curve(x, own["off_line_displacement_um"].to_numpy(), name, group=group))
         y, low, high = (own[c].to_numpy() for c in ends_of("friction_force_N"))
         force += [Curve(x, y, name, low=low, high=high, group=group)]
         y, low, high = (local[c].to_numpy() for c in ends_of("friction_coefficient"))
         friction += [Curve(local["roll_angle_deg"].to_numpy(), y, name, marker=True, low=low, high=high, group=group)]
     angle = "roll angle of a pinion tooth (deg)"
-    return {
-        "friction_force": (Panel(angle, "friction force of the mesh (N)", tuple(force)),),
+    drawn = {
+        "friction_force": (
+            Panel(angle, "displacement off the line of action (µm)", tuple(moved)),
+            Panel(angle, "friction force of the mesh (N)", tuple(force)),
+        ),
         "friction": (Panel(angle, "friction coefficient (-)", tuple(friction)),),
     }
+    if static is None:
+        return drawn
+    test = []
+    for group, name in enumerate(("driving", "driven")):
+        rows = static["direction"] == name
+        x, y = (static[column][rows] for column in ("line_force_N", "off_line_displacement_um"))
+        test.append(Curve(x, y, f"pinion {name}", marker=True, group=group))
+    words = "force along the line of action (N)", "displacement off the line of action (µm)"
+    return {**drawn, "static": (Panel(*words, tuple(test)),)}
 
 
 def _case(file: OffLineFile, path: Path, table: pd.DataFrame) -> CaseDraft | None:

@@ -60,8 +60,9 @@ def loss_factor_figure(title: str, factors: pd.DataFrame) -> Figure:
     with styled():
         figure, (axis,), _ = panels(1, 1, height=2.9)
         axis.plot(local["torque_Nm"], local["value"], "o-", color="C0", label="local load")
-        for row, colour in zip(closed.itertuples(), shades(max(len(closed), 1)), strict=False):
-            axis.axhline(row.value, color=colour, linestyle="--", linewidth=0.9, label=str(row.loss_factor))
+        lines = zip(closed["loss_factor"], closed["value"].to_numpy(float), shades(len(closed)), strict=True)
+        for name, value, colour in lines if len(closed) else ():
+            axis.axhline(float(value), color=colour, linestyle="--", linewidth=0.9, label=str(name))
         axis.set_xlabel("torque on the pinion (N m)")
         axis.set_ylabel("tooth loss factor (-)")
         axis.set_ylim(bottom=0.0)

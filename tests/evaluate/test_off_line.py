@@ -61,6 +61,14 @@ def test_planted_local_and_mean_friction_are_found_where_nothing_is_uncertain(si
     assert found.tables["recordings"]["mean_friction"][0] == pytest.approx(planted_mean(), rel=5e-3)
 
 
+@pytest.mark.literature("Vaishya and Houser 1999, AGMA 99FTMS1, section 8: coupling with the line of action below 2 %")
+def test_the_coupling_of_the_static_test_is_told(silent):
+    """Planted: 0.2 nm per newton, on bearings that yield 11 nm."""
+    found, _ = silent
+    assert found.tables["recordings"]["coupling_percent"][0] == pytest.approx(100 * 0.0002 * 90.0, abs=0.5)
+    assert {panel.up for panel in found.figures["static"]} == {"displacement off the line of action (µm)"}
+
+
 def test_slow_gears_on_a_spring_need_its_stiffness_alone(tmp_path):
     stiff = replace(RIG, errors=SILENT, resonance=1e6, turns=2)
     tables, _ = bench.recorded(stiff, 0)
