@@ -10,13 +10,14 @@ import pandas as pd
 
 from mixedlub.condensed.regression import Regression, design_of, fitted, limits_of
 from mixedlub.friction.condensed import INPUTS, TERMS, coefficient_name
-from profiles.errors import InputError
 
 Criterion = Literal["bic", "p-value"]
 ENTER, LEAVE = 0.05, 0.10
 """Convention. p-values below which a term enters, and above which it leaves."""
 PER_TERM = 5
 """Judgement. Readings that each term of a law needs."""
+FEWEST = 2 * PER_TERM
+"""Readings that a regression needs."""
 SAME = 1e-6
 """Relative difference up to which values of an input are one level."""
 DETERMINED = 1e-8
@@ -109,14 +110,13 @@ def measured_regression(
 ) -> Regression:
     r"""A law of measured friction from the terms that it asks for; all other coefficients are zero.
 
-    ``values`` are the inputs in their units. The logarithm of friction is regressed over products of up to ``order``
-    logarithms of the inputs. Standard errors hold for the terms chosen, and for readings that scatter independently.
+    ``values`` are the inputs in their units, of `FEWEST` readings or more. The logarithm of friction is regressed over
+    products of up to ``order`` logarithms of the inputs. Standard errors hold for the terms chosen, and for readings
+    that scatter independently.
 
     Source: H. Xu, PhD thesis, Ohio State University, 2005, chapter 3, for the multiple regression of the logarithm of
     measured friction over transformed terms.
     """
-    if len(friction) < 2 * PER_TERM:
-        raise InputError(f"a regression needs {2 * PER_TERM} readings or more", where="readings", value=len(friction))
     every, wanted = design_of(values), np.log(friction)
     kept = chosen_terms(every[candidates(varied(values), order)], wanted, by)
     fit = least_squares(every[kept], wanted)

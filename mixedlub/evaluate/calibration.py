@@ -13,7 +13,15 @@ from pydantic import Field, field_validator
 from mixedlub import friction
 from mixedlub.chain.documented import check_given
 from mixedlub.condensed.law_file import friction_file
-from mixedlub.evaluate.evaluation import BEYOND_VISCOSITY, Curve, Evaluated, Evaluation, Panel, check_surfaces
+from mixedlub.evaluate.evaluation import (
+    BEYOND_VISCOSITY,
+    Curve,
+    Evaluated,
+    Evaluation,
+    Panel,
+    check_surfaces,
+    file_name,
+)
 from mixedlub.evaluate.loss_fit import Contacts, Fit, calibrated, contacts_of
 from mixedlub.gear import at_roll_angle, local_loss_factor, mesh
 from mixedlub.kinds import columns
@@ -148,7 +156,9 @@ def run(file: CalibrationFile, path: Path) -> Evaluated:
     local = _local(rig, file, table, fit, fixed, contacts)
     notes = [str(one) for one in dict.fromkeys(findings)]
     notes += [f"{name} is at a bound: it has no interval, and the others hold for that value" for name in fit.at_bound]
-    files = {f"friction_{name}.toml": _law_text(file, fit, fixed, name, tables["fit"]) for name in file.surfaces}
+    files = {
+        f"friction_{file_name(name)}.toml": _law_text(file, fit, fixed, name, tables["fit"]) for name in file.surfaces
+    }
     drawn = {"calculated_over_measured": (_agreement(readings),), "local_friction": (local,)}
     return Evaluated(file.title, tables, drawn, tuple(_lines(tables)), tuple(notes), files=files)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -111,6 +112,15 @@ def attachments(sections: Any, folder: Path) -> dict[str, bytes]:
             if inside and (folder / name).is_file():
                 found[name] = (folder / name).read_bytes()
     return found
+
+
+def file_name(name: str) -> str:
+    """A name of the user as part of a file name.
+
+    >>> file_name("ground / polished, both signs")
+    'ground_polished_both_signs'
+    """
+    return re.sub(r"\W+", "_", name).strip("_")
 
 
 def check_surfaces(known: Collection[str], named: Iterable[object], where: str) -> None:

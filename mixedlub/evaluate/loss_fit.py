@@ -13,7 +13,7 @@ from scipy.stats import t as student
 from mixedlub.friction.loepenhaus import loepenhaus
 from mixedlub.gear import Mesh
 from mixedlub.laws.contact import line_hertz_pressure
-from profiles.errors import InputError
+from profiles.errors import InputError, RunError
 
 LARGEST_CONDITION = 1e6
 """Judgement. Condition number of the scaled derivatives above which readings do not tell coefficients apart."""
@@ -131,7 +131,13 @@ def calibrated(
         return contacts.loss({**fixed, **own}, factor)
 
     start = np.where(low > 0.0, np.sqrt(np.abs(low * high)), 0.5 * (low + high))
+    with np.errstate(all="ignore"):
+        if not np.isfinite(of(start)).all():
+            middle = dict(zip(names, start.round(6).tolist(), strict=True))
+            raise InputError("the law has no finite loss in the middle of the bounds", where="bounds", value=middle)
     found = least_squares(lambda x: (of(x) - loss) / scale, start, bounds=(low, high), x_scale=high - low, xtol=1e-12)
+    if not found.success:
+        raise RunError(f"the fit of {', '.join(names)} has not converged: narrow the bounds")
     free = found.active_mask == 0
     chi_square = float(2.0 * found.cost)
     spread = chi_square / freedom

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,8 +13,8 @@ from scipy.stats import norm
 
 from mixedlub.condensed.law_file import friction_file
 from mixedlub.condensed.regression import Regression
-from mixedlub.condensed.stepwise import PER_TERM, least_squares, measured_regression, varied
-from mixedlub.evaluate.evaluation import BEYOND_VISCOSITY, Curve, Evaluated, Evaluation, Panel
+from mixedlub.condensed.stepwise import FEWEST, PER_TERM, least_squares, measured_regression, varied
+from mixedlub.evaluate.evaluation import BEYOND_VISCOSITY, Curve, Evaluated, Evaluation, Panel, file_name
 from mixedlub.evaluate.two_disc import hertz
 from mixedlub.friction.condensed import INPUTS
 from mixedlub.kinds import columns
@@ -118,6 +117,9 @@ def laws_of(file: RegressionFile, table: Table, values: dict[str, np.ndarray]) -
         for sign, rows in signs.items():
             if sign != BOTH and rows.sum() < LEAST:
                 continue
+            if rows.sum() < FEWEST:
+                place = f"{table.source}: readings of {pair}" if len(several) > 1 else table.source
+                raise InputError(f"a regression needs {FEWEST} readings or more", where=place, value=int(rows.sum()))
             part = {name: value[rows] for name, value in values.items()}
             friction = table["friction_coefficient"][rows]
             found = measured_regression(part, friction, file.regression.order, file.regression.terms)
@@ -145,7 +147,7 @@ def run(file: RegressionFile, path: Path) -> Evaluated:
         "readings": pd.concat([_readings(law, table) for law in laws], ignore_index=True),
         "fits": pd.DataFrame([_fit(law, table) for law in laws]),
     }
-    files = {f"{_slug(law.name)}.toml": _law_text(file, law) for law in laws}
+    files = {f"{file_name(law.name)}.toml": _law_text(file, law) for law in laws}
     return Evaluated(file.title, tables, _figures(laws), tuple(map(_line, laws)), tuple(notes), files=files)
 
 
@@ -198,15 +200,6 @@ def _law_text(file: RegressionFile, law: Law) -> str:
         f"{law.found.fit['readings']} readings. Written by `mixedlub evaluate regression`."
     )
     return friction_file("condensed", oil, about, law.found.fit, law.found.coefficients)
-
-
-def _slug(name: str) -> str:
-    """A file name of a law.
-
-    >>> _slug("ground / polished, both signs")
-    'ground_polished_both_signs'
-    """
-    return re.sub(r"\W+", "_", name).strip("_")
 
 
 def _line(law: Law) -> str:

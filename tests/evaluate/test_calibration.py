@@ -107,6 +107,7 @@ def test_a_coefficient_at_a_bound_has_no_interval_and_is_told(tmp_path, exact):
 
 BAD = [
     ({"coefficients": {"c5": 0.0, "c6": None}, "bounds": {"c6": [0.1, 3.0]}}, r"do not tell these apart.*"),
+    ({"coefficients": {"c3": None}, "bounds": {"c3": [1.0, 9.0]}}, "no finite loss in the middle of the bounds"),
     ({"bounds": {"c11": [0.0, 1.0]}}, "no such coefficient; nearest known: 'c1'"),
     ({"bounds": {"c3": [0.0, 1.0]}}, "bounds.c3: is fixed in coefficients too"),
     ({"bounds": {"c1": [1.0, 0.1]}}, "the first bound, 1, must be below the second, 0.1"),

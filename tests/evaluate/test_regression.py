@@ -118,7 +118,7 @@ def test_bad_readings_are_refused(tmp_path, value, said):
 
 def test_too_few_readings_are_refused(tmp_path):
     columns = {name: cells[:8] for name, cells in bench.recorded(bench.Bench(), 0).items()}
-    with pytest.raises(InputError, match="readings: 8: a regression needs 10 readings or more"):
+    with pytest.raises(InputError, match=r"readings\.csv: 8: a regression needs 10 readings or more"):
         found_of(tmp_path, columns)
 
 
