@@ -40,6 +40,7 @@ def shear_heating(
 
     .. math:: x^2 = \frac{\beta_p\,\eta_p\,v_s^2}{8 k_f}
 
+    The slope beta_p, as `contact_softening` has it, makes the form belong to Pa s.
     Source: A. W. Crook, Phil. Trans. R. Soc. A 254 (1961) 237.
 
     >>> float(shear_heating(10.0, 10.0, 0.04, 0.125, 1.0))   # without pressure the slope is that of the oil
@@ -60,6 +61,7 @@ def film_rise(
 
     .. math:: \Delta\theta = \frac{1}{\beta_p}\ln(1 + x^2)
 
+    The slope beta_p, as `contact_softening` has it, makes the form belong to Pa s.
     Source: A. W. Crook, Phil. Trans. R. Soc. A 254 (1961) 237, the film with heat conducted to its walls.
 
     >>> softening = 1 + np.log(10.0 / 0.02) / (np.log(0.02) + 9.67)
