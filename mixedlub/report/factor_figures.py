@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mixedlub.report.figures import Drawn
-from mixedlub.report.style import SMALL, WIDTH, panels, styled
-from mixedlub.schema.units import unit_of, without_unit
+from mixedlub.report.style import SMALL, WIDTH, in_words, labelled, panels, styled
 from mixedlub.study.factor_tables import Decided
 
 if TYPE_CHECKING:
@@ -27,7 +26,7 @@ ALONE, WITH_OTHERS = "#21618c", "#a9cce3"
 
 def factor_figures(decided: Decided) -> Iterator[Drawn]:
     """The indices as bars, and the main effects."""
-    what = _words(decided.response)
+    what = in_words(decided.response)
     with styled():
         yield Drawn(
             "indices",
@@ -52,19 +51,6 @@ def factor_figures(decided: Decided) -> Iterator[Drawn]:
         )
 
 
-def _words(name: str) -> str:
-    return without_unit(name).replace("_", " ")
-
-
-def _label(name: str) -> str:
-    """A factor of numbers with its unit.
-
-    >>> _label("face_width_mm"), _label("boundary_friction")
-    ('face width (mm)', 'boundary friction (-)')
-    """
-    return f"{_words(name)} ({unit_of(name) or '-'})"
-
-
 def _indices(decided: Decided) -> Figure:
     from matplotlib.figure import Figure
 
@@ -79,8 +65,8 @@ def _indices(decided: Decided) -> Figure:
     if ends is not None:
         reach = np.abs(ends[:, order] - decided.indices.total[order])
         panel.errorbar(total, places, xerr=reach, fmt="none", ecolor="0.25", elinewidth=0.8, capsize=2)
-    panel.set_yticks(places, [_words(decided.names[i]) for i in order])
-    panel.set_xlabel(f"share of the variance of {_words(decided.response)} (-)")
+    panel.set_yticks(places, [in_words(decided.names[i]) for i in order])
+    panel.set_xlabel(f"share of the variance of {in_words(decided.response)} (-)")
     panel.set_xlim(left=0.0)
     panel.grid(axis="y", visible=False)
     figure.legend(loc="outside upper right", ncols=2)
@@ -94,11 +80,11 @@ def _interactions(decided: Decided) -> Figure:
     figure = Figure(figsize=(WIDTH * 0.65, 0.28 * len(largest) + 0.8), layout="constrained")
     panel = figure.subplots()
     panel.barh(
-        [f"{_words(decided.names[a])} × {_words(decided.names[b])}" for (a, b), _ in largest],
+        [f"{in_words(decided.names[a])} × {in_words(decided.names[b])}" for (a, b), _ in largest],
         [max(share, 0.0) for _, share in largest],
         color=ALONE,
     )
-    panel.set_xlabel(f"share of the variance of {_words(decided.response)} (-)")
+    panel.set_xlabel(f"share of the variance of {in_words(decided.response)} (-)")
     panel.set_xlim(left=0.0)
     panel.grid(axis="y", visible=False)
     return figure
@@ -111,15 +97,15 @@ def _main_effects(decided: Decided) -> Figure:
             x = np.array(effect.levels, dtype=float)
             order = np.argsort(x)
             panel.plot(x[order], effect.mean[order], color=ALONE, marker="o")
-            panel.set_xlabel(_label(name))
+            panel.set_xlabel(labelled(name))
         else:
             order = np.argsort(effect.mean)
             panel.plot(np.arange(order.size), effect.mean[order], color=ALONE, marker="o", linestyle="")
             _name_levels(panel, [str(effect.levels[i]) for i in order])
-            panel.set_xlabel(_words(name))
+            panel.set_xlabel(in_words(name))
         panel.axhline(decided.mean, color="0.35", linewidth=0.8, linestyle=(0, (4, 3)))
         if number % columns == 0:
-            panel.set_ylabel(f"{_words(decided.response)} ({decided.unit})", fontsize=SMALL)
+            panel.set_ylabel(f"{in_words(decided.response)} ({decided.unit})", fontsize=SMALL)
     return figure
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from functools import partial
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -11,7 +12,8 @@ import numpy as np
 
 from mixedlub.parallel import shared_out
 from mixedlub.report.cutoff_table import cutoff_rows
-from mixedlub.report.figures import Drawn, figures
+from mixedlub.report.figures import BANDS, Drawn, figures
+from mixedlub.report.interactive import EMBEDDING, PLACE, explorer
 from mixedlub.report.laws import laws_used
 from mixedlub.report.paper_figures import paper_figures
 from mixedlub.report.style import as_svg, save
@@ -64,7 +66,8 @@ def write_page(
     drawn = [*surface_figures(study, profiles, judged), *figures(results)]
     printed = list(paper_figures(results)) if as_in_paper else []
     doing(f"drawing {len(drawn) + len(printed)} figures")
-    svgs = shared_out(lambda one: _saved(one, drawings, formats), [*drawn, *printed])
+    tasks = [partial(explorer, results), *(partial(_saved, one, drawings, formats) for one in (*drawn, *printed))]
+    chart, *svgs = shared_out(lambda task: task(), tasks)
     shown = [{"name": one.name, "caption": one.caption, "svg": svg} for one, svg in zip(drawn, svgs)]
     files_of = [{"file": f"{one.name}.{formats[0]}", "caption": one.caption} for one in printed]
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
@@ -72,7 +75,8 @@ def write_page(
     normal = study.plan.options.heights == "gaussian"
     of_heights = [*(not_gaussian(judged) if normal else []), *height_notes(profiles, judged, normal)]
     texts = {"notes": grouped([*notes, *of_heights]), "provenance": provenance(study), "given": given}
-    page = template.render(**content(results), **texts, figures=shown, printed=files_of)
+    embedded = {"chart": chart, "place": PLACE, "embedding": {**EMBEDDING, "downloadFileName": study.name}}
+    page = template.render(**content(results), **texts, **embedded, figures=shown, printed=files_of)
     (folder / "index.html").write_text(page, encoding="utf-8")
     return of_heights
 
@@ -103,6 +107,7 @@ def content(results: Results) -> dict[str, Any]:
         "loss_table": loss_table(results),
         "surfaces": surface_rows(study),
         "cutoffs": cutoff_rows(results),
+        "band": BANDS.get(file.options.bands),
         "gears": input_rows(study, "gears"),
         "geometry": geometry_rows(study),
         "lubricant": input_rows(study, "lubricant"),

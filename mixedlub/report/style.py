@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mixedlub.schema.units import unit_of, without_unit
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -96,6 +98,24 @@ def normalised_axis(axes: Axes, most: float) -> None:
     right = axes.secondary_yaxis("right", functions=(lambda y: np.divide(y, most), lambda y: np.multiply(y, most)))
     right.spines["right"].set_visible(True)
     right.set_ylabel("share of largest (-)")
+
+
+def in_words(name: str) -> str:
+    """The words of a column, without its unit.
+
+    >>> in_words("face_width_mm")
+    'face width'
+    """
+    return without_unit(name).replace("_", " ")
+
+
+def labelled(name: str) -> str:
+    """The words of a column with its unit, for an axis.
+
+    >>> labelled("face_width_mm"), labelled("boundary_friction")
+    ('face width (mm)', 'boundary friction (-)')
+    """
+    return f"{in_words(name)} ({unit_of(name) or '-'})"
 
 
 FONTS = "'DejaVu Sans', Verdana, 'Bitstream Vera Sans', sans-serif"

@@ -1,0 +1,106 @@
+"""The rows of the interactive chart: all of a small study, evenly spread levels of a large one."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import prod
+from typing import TYPE_CHECKING, Any
+from urllib.parse import quote
+
+import numpy as np
+
+from mixedlub.report.plots import some, spread
+from mixedlub.study.columns import VALIDITY
+from mixedlub.study.range_flags import as_words
+from mixedlub.study.results import LEVELS, Results
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+MOST_ROWS = 6_000
+"""Most rows of the chart, which browsers redraw within about a second."""
+MOST_BYTES = 2_500_000
+"""Longest text of those rows. The page has it twice, in the chart and as a file, and is to stay below 10 MB."""
+DIGITS = 5
+SIDES = ("pinion_surface", "gear_surface")
+_PLAIN = ",.:;/() -+_|"
+"""Characters besides letters and digits that stand for themselves in a data address."""
+
+
+@dataclass(frozen=True, eq=False)
+class ChartRows:
+    """Rows of the table of a study, their text, and a sentence on the choice of these rows."""
+
+    table: pd.DataFrame
+    text: str
+    choice: str
+
+    @property
+    def address(self) -> str:
+        """The rows as a file within a link."""
+        return f"data:text/csv;charset=utf-8,{quote(self.text, safe=_PLAIN)}"
+
+
+def chart_rows(results: Results, most: int = MOST_ROWS, most_bytes: int = MOST_BYTES) -> ChartRows:
+    """The rows of the chart: at most ``most``, and fewer where many columns would make their text too long."""
+    while True:
+        places = kept(results, most)
+        table = _table(results, places)
+        text = table.to_csv(index=False, lineterminator="\n")
+        size = len(text.encode())
+        if size <= most_bytes or len(table) == 1:
+            return ChartRows(table, text, _choice(results, places))
+        most = max(1, int(0.95 * len(table) * most_bytes / size))
+
+
+def kept(results: Results, most: int) -> tuple[np.ndarray, ...]:
+    """Places of pairings by roughness, then of oil temperatures, torques and speeds; at most ``most`` conditions.
+
+    Every axis has all its levels, or as many as each other axis that is thinned.
+    """
+    shape, levels = results.study.plan.shape, results.study.file.conditions
+    counts = range(1, max(shape) + 1)
+    limit = max(1, bisect_right(counts, most, key=lambda count: prod(min(n, count) for n in shape)))
+    roughness = results["composite_roughness"][:, 0, 0, 0]
+    pairings = np.argsort(roughness, kind="stable")[some(roughness.size, limit)]
+    return (pairings, *(spread(getattr(levels, name), limit) for name in LEVELS))
+
+
+def _table(results: Results, places: Sequence[np.ndarray]) -> pd.DataFrame:
+    import pandas as pd
+
+    levels = results.study.file.conditions
+    at = tuple(grid.ravel() for grid in np.meshgrid(*places, indexing="ij"))
+    flags, words = as_words(results.flags, results.study.plan.shape)
+    columns: dict[str, Any] = {
+        side: [results.study.pairings[i][n] for i in at[0].tolist()] for n, side in enumerate(SIDES)
+    }
+    columns |= {name: np.array(getattr(levels, name))[i] for name, i in zip(LEVELS, at[1:], strict=True)}
+    columns |= {c.name: rounded(c.of(results[c.output][at])) for c in results.columns}
+    columns[VALIDITY] = [words[i] for i in flags[at].tolist()]
+    return pd.DataFrame(columns)
+
+
+def rounded(values: np.ndarray) -> np.ndarray:
+    """Values with five significant digits.
+
+    >>> rounded(np.array([123.45678, 1.2345678e-7])).tolist()
+    [123.46, 1.2346e-07]
+    """
+    return np.array([float(f"{v:.{DIGITS}g}") for v in values.tolist()])
+
+
+def _choice(results: Results, places: Sequence[np.ndarray]) -> str:
+    """How many conditions the chart has, and which."""
+    counts = results.study.plan.shape
+    if prod(counts) == prod(len(p) for p in places):
+        return f"All {results.study.conditions} conditions are in the chart, with numbers of {DIGITS} digits."
+    names = ("pairings in the order of composite roughness", "oil temperatures", "torques", "speeds")
+    thinned = [f"{len(p)} of {n} {name}" for p, n, name in zip(places, counts, names, strict=True) if len(p) < n]
+    return (
+        f"The chart has {prod(len(p) for p in places)} of the {results.study.conditions} conditions, so that the page "
+        f"stays small: {', '.join(thinned)}, evenly spaced, first and last included. Numbers have {DIGITS} digits. "
+        "All conditions with all digits are in results.csv and results.parquet beside the page."
+    )
