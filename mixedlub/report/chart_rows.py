@@ -21,8 +21,10 @@ if TYPE_CHECKING:
 
 MOST_ROWS = 6_000
 """Most rows of the chart, which browsers redraw within about a second."""
-MOST_BYTES = 2_500_000
-"""Longest text of those rows. The page has it twice, in the chart and as a file, and is to stay below 10 MB."""
+MOST_BYTES = 3_000_000
+"""Longest text of those rows, in the chart and again as a file: a page has up to 6 MB besides, and is to have 10."""
+SHARES = (4, 1, 1, 1)
+"""Levels that are kept of pairings, oil temperatures, torques and speeds, relative to each other."""
 DIGITS = 5
 SIDES = ("pinion_surface", "gear_surface")
 _PLAIN = ",.:;/() -+_|"
@@ -49,23 +51,28 @@ def chart_rows(results: Results, most: int = MOST_ROWS, most_bytes: int = MOST_B
         places = kept(results, most)
         table = _table(results, places)
         text = table.to_csv(index=False, lineterminator="\n")
-        size = len(text.encode())
+        rows = ChartRows(table, text, _choice(results, places))
+        size = len(text.encode()) + len(rows.address)
         if size <= most_bytes or len(table) == 1:
-            return ChartRows(table, text, _choice(results, places))
+            return rows
         most = max(1, int(0.95 * len(table) * most_bytes / size))
 
 
 def kept(results: Results, most: int) -> tuple[np.ndarray, ...]:
     """Places of pairings by roughness, then of oil temperatures, torques and speeds; at most ``most`` conditions.
 
-    Every axis has all its levels, or as many as each other axis that is thinned.
+    An axis has all its levels, or as many as each other axis that is thinned, and pairings four times as many.
     """
     shape, levels = results.study.plan.shape, results.study.file.conditions
-    counts = range(1, max(shape) + 1)
-    limit = max(1, bisect_right(counts, most, key=lambda count: prod(min(n, count) for n in shape)))
+
+    def limits(count: int) -> tuple[int, ...]:
+        return tuple(min(n, share * count) for n, share in zip(shape, SHARES, strict=True))
+
+    count = max(1, bisect_right(range(1, max(shape) + 1), most, key=lambda count: prod(limits(count))))
+    first, *others = limits(count)
     roughness = results["composite_roughness"][:, 0, 0, 0]
-    pairings = np.argsort(roughness, kind="stable")[some(roughness.size, limit)]
-    return (pairings, *(spread(getattr(levels, name), limit) for name in LEVELS))
+    pairings = np.argsort(roughness, kind="stable")[some(roughness.size, min(first, most))]
+    return (pairings, *(spread(getattr(levels, name), n) for name, n in zip(LEVELS, others, strict=True)))
 
 
 def _table(results: Results, places: Sequence[np.ndarray]) -> pd.DataFrame:
@@ -96,7 +103,7 @@ def _choice(results: Results, places: Sequence[np.ndarray]) -> str:
     """How many conditions the chart has, and which."""
     counts = results.study.plan.shape
     if prod(counts) == prod(len(p) for p in places):
-        return f"All {results.study.conditions} conditions are in the chart, with numbers of {DIGITS} digits."
+        return f"The chart has every condition ({results.study.conditions}), with numbers of {DIGITS} digits."
     names = ("pairings in the order of composite roughness", "oil temperatures", "torques", "speeds")
     thinned = [f"{len(p)} of {n} {name}" for p, n, name in zip(places, counts, names, strict=True) if len(p) < n]
     return (

@@ -45,6 +45,8 @@ PAIRING, ALL = "pairing", "all"
 HEIGHT = 380
 MOST_NAMED = 80
 """Most names in the legend; the lists of surfaces choose among more."""
+WIDEST_NAME, LETTER, BESIDE_NAME = 240, 6.3, 28
+"""Width of the longest name in the legend, of a letter in it, and of the mark beside it (pixels)."""
 FAINT = 0.08
 """Opacity of pairings that are not chosen."""
 GREY, INK = "#5b6770", "#1d2329"
@@ -67,7 +69,8 @@ def explorer(results: Results) -> Explorer:
 
     rows = chart_rows(results)
     flags = [(code, one.text) for code, one in zip(results.flags, out_of_range(results), strict=True)]
-    library = vl_convert.javascript_bundle(snippet=None, vl_version=".".join(alt.SCHEMA_VERSION.split(".")[:2]))
+    version = ".".join(alt.SCHEMA_VERSION.split(".")[:2])
+    library = vl_convert.javascript_bundle(vl_version=version)  # type: ignore[call-arg]
     return Explorer(specification(results, rows), rows, library, flags)
 
 
@@ -76,7 +79,7 @@ def specification(results: Results, rows: ChartRows) -> dict[str, Any]:
     import altair as alt
 
     one = _Chart.of(results, rows)
-    chart = alt.layer(*one.layers()).add_params(*one.parameters())
+    chart = one.chosen(alt.layer(*one.layers(), data=one.data())).add_params(*one.parameters())
     title = alt.TitleParams(text=alt.ExprRef("labels[quantity]"), anchor="start", fontSize=12, fontWeight="normal")
     fitted = alt.AutoSizeParams(type="fit-x", contains="padding", resize=True)
     chart = chart.properties(name="study", width="container", height=HEIGHT, title=title, autosize=fitted)
@@ -140,28 +143,31 @@ class _Chart:
     def abscissas(self) -> list[str]:
         return [*self.varied, *(name for name in ABSCISSAS if name in self.quantities)]
 
-    def _base(self) -> alt.Chart:
-        """The rows at the chosen conditions and surfaces, with the chosen quantity, abscissa and colour."""
+    def data(self) -> alt.Data:
+        """The rows of all layers."""
         import altair as alt
 
         words = (*SIDES, VALIDITY)
         kinds = {name: "string" if name in words else "number" for name in self.rows.table.columns}
-        base = alt.Chart(alt.Data(values=self.rows.text, format=alt.CsvDataFormat(type="csv", parse=kinds)))
+        return alt.Data(values=self.rows.text, format=alt.CsvDataFormat(type="csv", parse=kinds))
+
+    def chosen(self, chart: alt.LayerChart | alt.FacetChart) -> alt.LayerChart | alt.FacetChart:
+        """The rows at the chosen conditions and surfaces, with the chosen quantity, abscissa and colour."""
         for name in self.varied:
             at = _held(name)
-            base = base.transform_filter(f"abscissa == '{name}' || {at} == null || datum.{name} == {at}")
+            chart = chart.transform_filter(f"abscissa == '{name}' || {at} == null || datum.{name} == {at}")
         if len(self.surfaces) > 1:
-            base = base.transform_filter(_of_both())
+            chart = chart.transform_filter(_of_both())
         others = "".join(f" + (abscissa == '{name}' ? '' : '|' + datum.{name})" for name in self.varied)
         level = "format(datum[colour_by], '.6~r') + ' ' + units[colour_by]"
-        base = base.transform_calculate(
+        chart = chart.transform_calculate(
             x="datum[abscissa]",
             y="datum[quantity]",
             low="datum[low[quantity]]",
             high="datum[high[quantity]]",
             pairing="datum.pinion_surface + ' / ' + datum.gear_surface",
         )
-        return base.transform_calculate(
+        return chart.transform_calculate(
             series=f"datum.pairing{others}",
             colour=f"colour_by == '{PAIRING}' ? datum.pairing : {level}",
             rank=f"colour_by == '{PAIRING}' ? datum.composite_roughness_um : datum[colour_by]",
@@ -189,13 +195,14 @@ class _Chart:
             legend=alt.Legend(
                 title=None,
                 orient="bottom",
-                columns=alt.ExprRef("max(1, floor(width / 130))"),
+                offset=32,
+                columns=alt.ExprRef(f"max(1, floor(width / {self._name_width() + BESIDE_NAME}))"),
                 symbolLimit=MOST_NAMED,
                 symbolType="circle",
-                labelLimit=240,
+                labelLimit=WIDEST_NAME,
             ),
         )
-        drawn = self._base().encode(
+        drawn = alt.Chart().encode(
             x=alt.X("x:Q", title=None, scale=alt.Scale(zero=False)),
             y=alt.Y("y:Q", title=None),
             color=colour,
@@ -221,6 +228,11 @@ class _Chart:
         yield target.mark_point(filled=True, size=90).properties(name="target").add_params(found)
         yield _text("labels[abscissa]", INK, "height + 22", "top").properties(name="abscissa_title")
         yield _text(self._conditions(), GREY, "-8", "bottom").properties(name="conditions_title")
+
+    def _name_width(self) -> float:
+        """Width of the longest name of a pairing in the legend (pixels)."""
+        first, second = (self.rows.table[side].str.len() for side in SIDES)
+        return min(LETTER * int((first + second + len(" / ")).max()), WIDEST_NAME)
 
     def _numbers(self) -> str:
         """What the pointer shows of the nearest mark: every number of its row, and where it is out of range."""
@@ -263,8 +275,8 @@ def _choice(name: str, words: str, texts: Mapping[Any, str], first: Any = None) 
 
     values = list(texts)
     listed = alt.binding_select(options=values, labels=list(texts.values()), name=words)
-    asked = {"bind": listed} if len(values) > 1 else {}
-    return alt.param(name=name, value=values[0] if first is None else first, **asked)
+    value = values[0] if first is None else first
+    return alt.param(name=name, value=value, bind=listed) if len(values) > 1 else alt.param(name=name, value=value)
 
 
 def _of_both() -> str:

@@ -66,7 +66,8 @@ def write_page(
     drawn = [*surface_figures(study, profiles, judged), *figures(results)]
     printed = list(paper_figures(results)) if as_in_paper else []
     doing(f"drawing {len(drawn) + len(printed)} figures")
-    tasks = [partial(explorer, results), *(partial(_saved, one, drawings, formats) for one in (*drawn, *printed))]
+    tasks: list[Callable[[], Any]] = [partial(explorer, results)]
+    tasks += [partial(_saved, one, drawings, formats) for one in (*drawn, *printed)]
     chart, *svgs = shared_out(lambda task: task(), tasks)
     shown = [{"name": one.name, "caption": one.caption, "svg": svg} for one, svg in zip(drawn, svgs)]
     files_of = [{"file": f"{one.name}.{formats[0]}", "caption": one.caption} for one in printed]

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 MOST_LEVELS = 6
 MOST_TORQUES = 3
-MOST_PAIRINGS = 300
+MOST_PAIRINGS = 120
 LONGEST = 22
 SIDE_BY_SIDE = 24
 """Characters of two names that fit above a panel of a third of the width."""
