@@ -12,7 +12,7 @@ from urllib.parse import quote
 import numpy as np
 
 from mixedlub.report.plots import some, spread
-from mixedlub.study.columns import VALIDITY
+from mixedlub.study.columns import VALIDITY, every_column
 from mixedlub.study.range_flags import as_words
 from mixedlub.study.results import LEVELS, Results
 
@@ -87,7 +87,8 @@ def _table(results: Results, places: Sequence[np.ndarray]) -> pd.DataFrame:
     columns |= {name: np.array(getattr(levels, name))[i] for name, i in zip(LEVELS, at[1:], strict=True)}
     columns |= {c.name: rounded(c.of(results[c.output][at])) for c in results.columns}
     columns[VALIDITY] = [words[i] for i in flags[at].tolist()]
-    return pd.DataFrame(columns)
+    order = (c.name for c in every_column(results.study.plan.losing))
+    return pd.DataFrame({name: columns[name] for name in order if name in columns})
 
 
 def rounded(values: np.ndarray) -> np.ndarray:

@@ -39,6 +39,8 @@ from mixedlub.study.results import Results, versions
 from mixedlub.study.schema import Options, StudyFile
 
 MOST_SURFACES = 12
+MOST_GIVEN = 200_000
+"""Most characters of the study file on the page."""
 
 
 def write_page(
@@ -75,11 +77,18 @@ def write_page(
     template = environment.from_string(files("mixedlub.report").joinpath("template.html").read_text(encoding="utf-8"))
     normal = study.plan.options.heights == "gaussian"
     of_heights = [*(not_gaussian(judged) if normal else []), *height_notes(profiles, judged, normal)]
-    texts = {"notes": grouped([*notes, *of_heights]), "provenance": provenance(study), "given": given}
+    texts = {"notes": grouped([*notes, *of_heights]), "provenance": provenance(study), "given": _start(given)}
     embedded = {"chart": chart, "place": PLACE, "embedding": {**EMBEDDING, "downloadFileName": study.name}}
     page = template.render(**content(results), **texts, **embedded, figures=shown, printed=files_of)
     (folder / "index.html").write_text(page, encoding="utf-8")
     return of_heights
+
+
+def _start(given: str) -> str:
+    """The study file, or as much of it as the page has room for."""
+    if len(given) <= MOST_GIVEN:
+        return given
+    return f"{given[:MOST_GIVEN]}\n\n[The first {MOST_GIVEN} of {len(given)} characters; study.toml has all.]"
 
 
 def _saved(drawn: Drawn, folder: Path, formats: Sequence[str]) -> str:
