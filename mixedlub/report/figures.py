@@ -69,7 +69,7 @@ def _over_temperature(results: Results) -> Drawn:
         f"Power loss against oil temperature: {words} at a {whose} speed of {fastest} rpm. "
         + _title_words(_some_of(levels.torque_Nm, MOST_LEVELS, "torques", "N m"))
         + _hollow(results.outside[chosen][..., int(np.argmax(levels.speed_rpm))])
-        + _shaded(results),
+        + shaded(results),
         over_temperature(results, chosen),
     )
 
@@ -87,7 +87,7 @@ def _at_temperature(results: Results, theta: int, several: bool) -> Iterator[Dra
         for key, words, chosen in groups(results):
             if len(chosen):
                 caption = f"{title} against {whose} speed: {words}{at}. {_title_words(some_torques)}"
-                caption += _hollow(results.outside[chosen, theta]) + _shaded(results)
+                caption += _hollow(results.outside[chosen, theta]) + shaded(results)
                 if quantity == "area_ratio":
                     caption += _log_words(results["area_ratio"][chosen, theta])
                 yield Drawn(f"{quantity}_{key}{suffix}", caption, over_speed(results, quantity, chosen, theta))
@@ -110,7 +110,7 @@ def _at_temperature(results: Results, theta: int, several: bool) -> Iterator[Dra
         f"Mean film thickness, {whose_film}, and mean friction of the smoothest and the roughest pairing{at}."
         + some_torques
         + _hollow(results.outside[:, theta])
-        + _shaded(results),
+        + shaded(results),
         film_and_friction(results, theta),
     )
 
@@ -119,7 +119,7 @@ def _hollow(outside: np.ndarray) -> str:
     return " Hollow marks: outside the model's range, as the table says." if outside.any() else ""
 
 
-def _shaded(results: Results) -> str:
+def shaded(results: Results) -> str:
     """Meaning of the shaded bands; empty where there are none."""
     return f" Shaded: {BANDS[results.study.plan.options.bands]}." if has_bands(results) else ""
 

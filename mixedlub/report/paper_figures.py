@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mixedlub.report.figures import Drawn, groups
-from mixedlub.report.plots import AXIS, MOST_LEVELS, MOST_TORQUES, paired_title, shown, spread
+from mixedlub.report.figures import Drawn, groups, shaded
+from mixedlub.report.plots import AXIS, MOST_LEVELS, MOST_TORQUES, has_bands, paired_title, shown, spread
 from mixedlub.report.style import shades, styled
+from mixedlub.study.bands import HIGH, LOW
 from mixedlub.study.fits import can_be_fitted, straight_line
 from mixedlub.study.results import Results
 
@@ -36,6 +37,8 @@ SHAPES = "ovs"
 LOSS = "normalised power loss (-)"
 RATIO = "boundary area ratio (-)"
 OUTSIDE = " Hollow: outside the model's range."
+SIDE_BY_SIDE, LONGEST_LINE = 13, 16
+"""Letters of two names, and of a line, that fit above a panel of a third of the width."""
 
 
 def paper_figures(results: Results) -> Iterator[Drawn]:
@@ -46,9 +49,12 @@ def paper_figures(results: Results) -> Iterator[Drawn]:
     oil = f"oil at {results.study.file.conditions.oil_temperature_C[theta]:g} °C"
     with styled(), matplotlib.rc_context(SIZES):
         number = 4
-        for quantity, label, words in (("normalised_loss", LOSS, "Power loss"), ("area_ratio", RATIO, RATIO[:-4])):
+        for quantity, label, words in (
+            ("normalised_loss", LOSS, "Normalised power loss"),
+            ("area_ratio", RATIO, RATIO[:-4]),
+        ):
             for key, which, chosen in groups(results):
-                caption = f"{words[:1].upper()}{words[1:]} against speed: {which}, {oil}.{OUTSIDE}"
+                caption = f"{words[:1].upper()}{words[1:]} against speed: {which}, {oil}.{OUTSIDE}{shaded(results)}"
                 figure = _small(results, quantity, chosen, theta, label)
                 yield Drawn(f"paper_{number:02}_{quantity}_{key}", caption, figure)
                 number += 1
@@ -67,27 +73,44 @@ def _small(results: Results, quantity: str, chosen: Sequence[int] | np.ndarray, 
     levels = results.study.file.conditions
     torques, order = spread(levels.torque_Nm, MOST_LEVELS), np.argsort(levels.speed_rpm)
     thousands = np.array(levels.speed_rpm)[order] * 1e-3
-    columns = min(len(chosen), 3)
+    titles = [paired_title(results, pairing, fit=SIDE_BY_SIDE) for pairing in chosen]
+    lines = [line for title in titles for line in title.split("\n")]
+    columns = min(len(chosen), 3 if max(map(len, lines)) <= LONGEST_LINE else 2)
     rows = -(-len(chosen) // columns)
-    figure = Figure(figsize=(WIDTH, 1.15 * rows + 0.6), layout="constrained")
-    axes = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).flat
-    for panel, pairing in zip(axes, chosen):
+    height = 1.15 if len(lines) == len(titles) else 1.3
+    figure = Figure(figsize=(WIDTH, height * rows + 0.6), layout="constrained")
+    axes = list(figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).flat)
+    for panel, pairing, title in zip(axes, chosen, titles):
         for colour, t in zip(shades(len(torques)), torques):
             y = results[quantity][pairing, theta, t, order]
             panel.plot(thousands, y, color=colour)
+            if has_bands(results):
+                low, high = (values[pairing, theta, t, order] for values in _ends(results, quantity))
+                panel.fill_between(thousands, low, high, color=colour, alpha=0.2, linewidth=0.0)
             _marks(panel, thousands, y, ~results.outside[pairing, theta, t, order], "o", colour)
-        panel.set_title(paired_title(results, pairing), loc="left")
-    for empty in list(axes)[len(chosen) :]:
+        panel.set_title(title, loc="left")
+    for empty in axes[len(chosen) :]:
         empty.set_visible(False)
+    for lowest in axes[max(0, len(chosen) - columns) : len(chosen)]:
+        lowest.tick_params(labelbottom=True)
     first = figure.axes[0]
-    first.set_ylim(bottom=0.0)
+    first.set_ylim(bottom=0.0, top=max(1.05, first.get_ylim()[1]) if quantity == "normalised_loss" else None)
     first.set_xlim(0.0, 1.05 * thousands.max())
-    first.xaxis.set_major_locator(MaxNLocator(3, integer=True))
+    first.xaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
+    first.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
     figure.supxlabel(f"{results.study.file.options.conditions_of} speed (1000 rpm)", fontsize=TEXT)
     figure.supylabel(label, fontsize=TEXT)
     handles = [_handle("o", colour) for colour in shades(len(torques))]
     _legend(figure, handles, _torques(results, torques), 3)
     return figure
+
+
+def _ends(results: Results, quantity: str) -> tuple[np.ndarray, np.ndarray]:
+    """Both ends of the band of a quantity; a normalised loss takes those of the loss, over the largest loss."""
+    if quantity != "normalised_loss":
+        return results[LOW + quantity], results[HIGH + quantity]
+    most = results["power_loss"].max()
+    return results[f"{LOW}power_loss"] / most, results[f"{HIGH}power_loss"] / most
 
 
 def _by_torque(results: Results, quantity: str, theta: int) -> Figure:
@@ -127,8 +150,10 @@ def _together(results: Results, quantity: str, theta: int) -> Figure:
         panel.axvline(1.0, color="0.35", linewidth=0.8, linestyle=(0, (4, 3)), zorder=0)
     _finish(figure, [panel], quantity)
     handles, names = _speeds(results, speeds)
-    shapes = [_handle(shape, "0.35") for shape, _ in zip(SHAPES, torques)]
-    _legend(figure, [*handles, *shapes], [*names, *_torques(results, torques)], 3)
+    rows = max(-(-len(names) // 2), len(torques))
+    empty = 2 * rows - len(names)  # torques take the last column
+    shapes = [*[_handle("", "none")] * empty, *(_handle(shape, "0.35") for shape, _ in zip(SHAPES, torques))]
+    _legend(figure, [*handles, *shapes], [*names, *[""] * empty, *_torques(results, torques)], 3)
     return figure
 
 

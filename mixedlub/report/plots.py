@@ -72,10 +72,10 @@ def shown(levels: Sequence[float]) -> list[str]:
     return texts
 
 
-def paired_title(results: Results, pairing: int, more: str = "") -> str:
-    """Title of a pairing; one line per surface where both do not fit into one."""
+def paired_title(results: Results, pairing: int, more: str = "", fit: int = SIDE_BY_SIDE) -> str:
+    """Title of a pairing; one line per surface where more letters than ``fit`` would be in one."""
     pinion, gear = (s if len(s) <= LONGEST else f"{s[: LONGEST - 1]}…" for s in results.study.pairings[pairing])
-    between = " /\n" if len(pinion) + len(gear) > SIDE_BY_SIDE else " / "
+    between = " /\n" if len(pinion) + len(gear) > fit else " / "
     names = between.join(s.replace("$", r"\$") for s in (pinion, gear))
     return f"{names}\n{more}" if more else names
 

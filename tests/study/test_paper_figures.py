@@ -24,8 +24,21 @@ def test_there_is_one_for_each_figure_of_the_paper(drawn):
     assert [name.split("_")[1] for name in drawn] == ["04", "05", "06", "07", "08", "09", "10"]
 
 
-def test_text_is_readable_and_nothing_overlaps(drawn):
-    for name, one in drawn.items():
+@pytest.fixture(scope="module")
+def long_names(tmp_path_factory):
+    moments = {"m2": 0.0025, "m4_per_um2": 0.0036}
+    names = ("isotropic finish A12", "superfinished flank", "ground, shot peened")
+    surfaces = {name: {"m0_um2": 0.02 * 4**i, **moments} for i, name in enumerate(names)}
+    folder = tmp_path_factory.mktemp("long")
+    return {f"long names: {one.name}": one for one in paper_figures(run(study_file(folder, surfaces=surfaces)))}
+
+
+def run(file):
+    return run_study(read_study(file))
+
+
+def test_text_is_readable_and_nothing_overlaps(drawn, long_names):
+    for name, one in (drawn | long_names).items():
         figure = one.figure
         figure.draw_without_rendering()
         assert figure.get_figwidth() == WIDTH
@@ -69,8 +82,27 @@ def test_lines_over_roughness_are_those_of_the_fits(results, drawn):
 
 def test_one_pairing_and_long_names_are_drawn_too(write_study):
     moments = {"m0_um2": 0.02, "m2": 0.0025, "m4_per_um2": 0.0036}
-    few = run_study(read_study(write_study(surfaces={"superfinished, vibratory, batch 12": moments})))
+    few = run(write_study(surfaces={"superfinished, vibratory, batch 12": moments}))
     assert len(list(paper_figures(few))) == 7
+
+
+def test_panels_without_a_pairing_are_left_out(long_names):
+    panels = long_names["long names: paper_04_normalised_loss_equal"].figure.axes
+    assert [panel.get_visible() for panel in panels] == [True, True, True, False]
+    labelled = [any(text.get_visible() and text.get_text() for text in panel.get_xticklabels()) for panel in panels[:3]]
+    assert labelled[1:] == [True, True]
+
+
+def test_bands_are_shaded(write_study):
+    surfaces = {"traced": {"profile": "shipped:0258", "cutoff_mm": 0.8}}
+    banded = run(write_study(surfaces=surfaces, options={"bands": "traces"}))
+    drawn = {one.name: one for one in paper_figures(banded)}
+    for quantity, most in (("area_ratio", 1.0), ("normalised_loss", banded["power_loss"].max())):
+        (one,) = (d for name, d in drawn.items() if f"_{quantity}_equal" in name)
+        assert "Shaded: in 90 of 100 surfaces" in one.caption
+        (panel,) = one.figure.axes
+        ends = banded["highest_" + quantity.replace("normalised", "power")][0, 0, 0] / most
+        assert panel.collections[0].get_paths()[0].vertices[:, 1].max() == pytest.approx(ends.max())
 
 
 def test_the_command_draws_them_on_request_with_text_as_text(write_study, tmp_path, capsys):
