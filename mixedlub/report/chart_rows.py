@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 MOST_ROWS = 6_000
 """Most rows of the chart, which browsers redraw within about a second."""
-MOST_BYTES = 3_000_000
-"""Longest text of those rows, in the chart and again as a file: a page has up to 6 MB besides, and is to have 10."""
+MOST_BYTES = 2_500_000
+"""Longest text of those rows, in the chart and again as a file: a page has up to 7 MB besides, and is to have 10."""
 SHARES = (4, 1, 1, 1)
 """Levels that are kept of pairings, oil temperatures, torques and speeds, relative to each other."""
 DIGITS = 5
