@@ -61,7 +61,8 @@ def chart_rows(results: Results, most: int = MOST_ROWS, most_bytes: int = MOST_B
 def kept(results: Results, most: int) -> tuple[np.ndarray, ...]:
     """Places of pairings by roughness, then of oil temperatures, torques and speeds; at most ``most`` conditions.
 
-    An axis has all its levels, or as many as each other axis that is thinned, and pairings four times as many.
+    A condition has all its levels, or as many as each other that is thinned. Pairings, of which there are at least four
+    times as many, take what room is left.
     """
     shape, levels = results.study.plan.shape, results.study.file.conditions
 
@@ -69,9 +70,9 @@ def kept(results: Results, most: int) -> tuple[np.ndarray, ...]:
         return tuple(min(n, share * count) for n, share in zip(shape, SHARES, strict=True))
 
     count = max(1, bisect_right(range(1, max(shape) + 1), most, key=lambda count: prod(limits(count))))
-    first, *others = limits(count)
+    others = limits(count)[1:]
     roughness = results["composite_roughness"][:, 0, 0, 0]
-    pairings = np.argsort(roughness, kind="stable")[some(roughness.size, min(first, most))]
+    pairings = np.argsort(roughness, kind="stable")[some(roughness.size, max(1, most // prod(others)))]
     return (pairings, *(spread(getattr(levels, name), n) for name, n in zip(LEVELS, others, strict=True)))
 
 

@@ -83,6 +83,7 @@ def specification(results: Results, rows: ChartRows) -> dict[str, Any]:
     title = alt.TitleParams(text=alt.ExprRef("labels[quantity]"), anchor="start", fontSize=12, fontWeight="normal")
     fitted = alt.AutoSizeParams(type="fit-x", contains="padding", resize=True)
     chart = chart.properties(name="study", width="container", height=HEIGHT, title=title, autosize=fitted)
+    chart = chart.properties(description=f"Results of {results.study.file.title}, chosen from the lists above")
     chart = chart.configure_view(stroke=None).configure(font=FONTS.replace("'", ""))
     return chart.configure_axis(gridColor="#e5e5e5", format="~r", labelFlush=False).to_dict()
 
