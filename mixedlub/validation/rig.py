@@ -38,7 +38,8 @@ class Form:
     ``rarity`` is the weight of the effect when effects are drawn; a form of rarity 0 is only a rival.
     ``rank`` is how general a form is: a form that contains simpler effects as special cases is no rival to them.
     ``rigid`` forms have one size, as a miscounted fringe has. ``within``: the catalogue's law of the same
-    effect can become this one, at some values of its parameters or in their limit.
+    effect can become this one, at some values of its parameters or in their limit. ``holds`` is the range that its
+    source states; the formula is in the docstring of the law.
     """
 
     id: str
@@ -50,6 +51,7 @@ class Form:
     rigid: bool = False
     rarity: float = 1.0
     within: bool = False
+    holds: str = ""
 
     def hide(self, values: Mapping[str, float]) -> Act:
         return Act(self.hook, lambda state: self.law(state, **values))

@@ -56,7 +56,7 @@ def of_contact(c: Contact, columns: Values) -> Values:
         "m0": c.m0,
         "m2": c.m2,
         "m4": c.m4,
-        **dict.fromkeys(("height_share", "slope_share", "curvature_share"), 0.5),
+        **{f"{name}_share": rig.shares[:, 0, i : i + 1] for i, name in enumerate(("height", "slope", "curvature"))},
         "separation": (c.film - s.offset) / s.spread,
         "summit_density": s.density,
         "summit_radius": s.radius,

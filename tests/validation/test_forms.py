@@ -28,14 +28,17 @@ from .helpers import run
 EXACT, APART = 1e-6, 1e-3
 NEARLY = {
     ("churning", "churning"): 5e-3,
+    ("churning", "churning_of_standard"): 5e-3,
+    ("bearing_drag", "bearing_drag_of_palmgren"): 1e-3,
+    ("limiting_shear_stress", "limiting_stress_cut"): 1e-3,
     ("boundary_speed_dependence", "boundary_speed_dependence"): 1e-3,
     ("pressure_viscosity_law", "bode"): 2e-3,
     ("presliding", "mindlin"): 1e-3,
 }
 """Forms counted as the catalogue's although it has something beside them that hardly shows.
 
-That is the density of the oil, a rounded corner at 1 mm/s, exponentials where a fraction bends alike, and drag at
-creeping speeds.
+That is the density of the oil, a rounded corner at 1 mm/s, at 2000 mm2/s rpm or at the limit of stress, exponentials
+where a fraction bends alike, and drag at creeping speeds.
 """
 STARTS, FEW, MANY = 60, 8, 40
 """Starts drawn, and fits from the best of them: few where a law must stay apart, many where it must come near."""
@@ -66,7 +69,9 @@ def signature(effect: Effect, before: Any, after: Any, columns: Values) -> Signa
         given["film_thickness"] = given["reading"]
         rows = np.abs(np.log(given["reading"] / onset)[:, 0]) > 0.13
 
-    shape = np.broadcast_shapes(*(np.shape(state[name]) for state in (given, later) for name in names), (1,))
+    read_too = [name for name in effect.reads if name in given]
+    shapes = [np.shape(given[name]) for name in (*names, *read_too)] + [np.shape(later[name]) for name in names]
+    shape = np.broadcast_shapes(*shapes, (1,))
 
     def one(name: str, value: Any) -> np.ndarray:
         wide = np.broadcast_to(value, shape)
@@ -209,15 +214,19 @@ def _rigs() -> list[Rig]:
     ]
 
 
-def planted() -> dict[tuple[str, str], list[tuple[Any, Any]]]:
+Key = tuple[str, str, bool]
+"""Effect and law, and whether the catalogue's can become it, which differs where its law is wider on some kinds."""
+
+
+def planted() -> dict[Key, list[tuple[Any, Any]]]:
     """Every form with the rigs on which it is tried, three at most."""
-    found: dict[tuple[str, str], list[tuple[Any, Any]]] = {}
+    found: dict[Key, list[tuple[Any, Any]]] = {}
     for form in (form for forms in FORMS.values() for form in forms):
         own = [(form, inputs) for inputs, ids in _contacts() if form.id in ids]
-        found.setdefault((form.id, form.law.__name__), []).extend(own)
+        found.setdefault((form.id, form.law.__name__, form.within), []).extend(own)
     for rig in _rigs():
         for form in rig.forms:
-            found.setdefault((form.id, form.law.__name__), []).append((form, rig))
+            found.setdefault((form.id, form.law.__name__, form.within), []).append((form, rig))
     return found
 
 
@@ -247,24 +256,22 @@ def signatures(form: Any, place: Any) -> Iterator[Signature]:
 PLANTED = planted()
 
 
-@pytest.mark.parametrize("key", list(PLANTED), ids="-".join)
+@pytest.mark.parametrize("key", list(PLANTED), ids=lambda key: "-".join(map(str, key)))
 def test_the_catalogue_can_become_a_form_just_where_the_form_says_so(key):
-    places = PLANTED[key]
-    said = {form.within for form, _ in places}
-    assert len(said) == 1
-    worst, bound = 0.0, NEARLY.get(key, EXACT)
+    places, within = PLANTED[key], key[2]
+    worst, bound = 0.0, NEARLY.get(key[:2], EXACT)
     for form, place in places[:3]:
         for sign in signatures(form, place):
             if worst <= max(APART, bound):
                 worst = max(worst, misfit(sign, bound, MANY if form.within else FEW))
-    assert worst < bound if said.pop() else worst > APART
+    assert worst < bound if within else worst > APART
 
 
 def test_every_form_of_every_kind_is_among_those_tried():
     rng = np.random.default_rng(9)
     for room in (tooth_contacts, histories):
         for _ in range(6):
-            assert {(form.id, form.law.__name__) for form in room.draw(rng).forms} <= set(PLANTED)
+            assert {(form.id, form.law.__name__, form.within) for form in room.draw(rng).forms} <= set(PLANTED)
 
 
 def test_no_effect_is_planted_in_forms_of_the_catalogue_alone_where_others_are_common():

@@ -7,9 +7,23 @@ import pytest
 
 from mixedlub.validation.contact import calibrated, lubricate, press, shear, start, summits, thick, touch
 from mixedlub.validation.planted import FORMS, MEASUREMENT, NAMED, OUTSIDE
-from mixedlub.validation.planted.contact import HARDNESS, HEIGHTS, _overlap_table, asperity_elastoplasticity
-from mixedlub.validation.planted.load import dynamic_load_of_two_orders
-from mixedlub.validation.planted.loss import churning_past_transition
+from mixedlub.validation.planted.contact import (
+    HARDNESS,
+    HEIGHTS,
+    _overlap_table,
+    _two_process_table,
+    _weibull_table,
+    asperity_elastoplasticity,
+    yielding_spheres,
+)
+from mixedlub.validation.planted.film import OF_LOCAL_CONTACTS
+from mixedlub.validation.planted.load import dynamic_load_of_quality, dynamic_load_of_two_orders
+from mixedlub.validation.planted.loss import (
+    churning_past_transition,
+    rolling_in_warm_inlets,
+    rolling_resistance,
+    rolling_under_load,
+)
 from mixedlub.validation.planted.shear import film_heating, flash, limiting_stress_in_hot_oil
 from mixedlub.validation.rigs import discs, gears
 
@@ -28,6 +42,8 @@ LOWERS = {
 }
 SIGNS = dict.fromkeys(RAISES, 1) | dict.fromkeys(LOWERS, -1)
 """What an effect does to the recorded quantity, where physics says so."""
+LEAVES_IN_HEAT = ("boundary_film_desorbed", "boundary_film_defect")
+"""Forms by which a boundary film is lost as the surfaces warm, and friction rises."""
 GEAR_IDS = {
     *("inlet_shear_heating", "starvation", "inlet_shear_thinning", "roughness_lay", "film_heating"),
     *("limiting_shear_stress", "coating_insulation", "skewed_heights", "asperity_plasticity", "micro_ehl"),
@@ -95,14 +111,14 @@ def test_usual_strength_changes_some_reading_and_stays_finite(rigs, name, kind):
 @pytest.mark.parametrize(("name", "kind"), [pair for pair in ON if EVERY[pair[0]].id in SIGNS])
 def test_sign_where_physics_gives_one(rigs, name, kind):
     rig, nominal = rigs[kind]
-    change = _change(rigs, name, kind) * SIGNS[EVERY[name].id]
+    change = _change(rigs, name, kind) * (1 if name in LEAVES_IN_HEAT else SIGNS[EVERY[name].id])
     assert np.min(change / readings(rig, nominal)) > -1e-6
     assert np.sum(change) > 0
 
 
 @pytest.mark.parametrize(
     "name",
-    ["inlet_shear_heating", "heated_by_hsu_lee", "starvation", "starved_by_meniscus", "inlet_shear_thinning"],
+    [form.law.__name__ for form in OF_LOCAL_CONTACTS],
 )
 @pytest.mark.parametrize("kind", ["gear_pair", "disc"])
 def test_thinner_films_raise_the_loss_of_mixed_contacts(rigs, name, kind):
@@ -132,10 +148,21 @@ def _power(rigs, name, column):
         ("churning", (0.0, 0.0), (1.3, 2.1)),
         ("churning_of_rim_and_faces", (0.0, 0.0), (2.0, 2.86)),
         ("churning_past_transition", (0.0, 0.0), (2.5, 2.8)),
+        ("churning_of_splash", (0.0, 0.0), (1.59, 1.59)),
+        ("churning_past_splash", (0.0, 0.0), (1.1, 1.8)),
+        ("churning_of_standard", (0.0, 0.0), (3.0, 3.0)),
+        ("windage_of_teeth", (0.0, 0.0), (2.75, 2.75)),
         ("rolling_resistance", (-0.05, 0.1), (1.5, 1.8)),
+        ("rolling_free_of_load", (-0.05, 0.05), (1.7, 1.8)),
+        ("rolling_under_load", (0.2, 0.3), (1.6, 1.7)),
+        ("rolling_as_bearings_are_tested", (0.25, 0.35), (0.9, 1.66)),
+        ("rolling_in_warm_inlets", (-0.3, 0.05), (0.9, 1.66)),
         ("elastic_hysteresis", (1.4, 1.6), (0.95, 1.05)),
         ("elastic_damping", (1.65, 2.0), (0.95, 1.05)),
         ("bearing_drag", (0.3, 1.3), (0.8, 1.7)),
+        ("bearing_drag_of_rollers", (0.2, 0.8), (0.8, 1.7)),
+        ("bearing_drag_of_palmgren", (0.1, 0.8), (1.1, 1.7)),
+        ("seal_drag_of_standard", (0.0, 0.0), (1.0, 1.0)),
         ("torque_offset", (0.0, 0.0), (1.0, 1.0)),
         ("torque_gain", (1.0, 1.0), (1.0, 1.0)),
         ("seal_drag", (0.0, 0.0), (1.0, 1.0)),
@@ -224,10 +251,11 @@ def test_literature_flash_rise_against_the_standard(rigs):
     np.testing.assert_allclose(flash(contact, 0.05), 0.542 / 0.786 * standard, rtol=0.01)
 
 
-def test_limiting_stress_is_never_passed(rigs):
+@pytest.mark.parametrize("name", ["limiting_shear_stress", "limiting_stress_cut"])
+def test_limiting_stress_is_never_passed(rigs, name):
     rig, nominal = rigs["disc"]
-    contact = run(rig, nominal, [NAMED["limiting_shear_stress"].hide({"strength": 1.0})])
-    assert np.all(contact.stress <= 0.045 * 0.25 * np.pi * contact.pressure)
+    contact = run(rig, nominal, [EVERY[name].hide({"strength": 2.0})])
+    assert np.all(contact.stress <= 0.0225 * 0.25 * np.pi * contact.pressure)
 
 
 def test_limit_falls_as_oil_warms_and_holds_at_40_degrees(rigs):
@@ -287,14 +315,73 @@ def test_tip_relief_of_equal_sharing_lowers_the_loss(equal_sharing):
     assert np.all(change < 0)
 
 
-def test_skewed_heights_have_the_skewness_asked_for():
-    """Third moment of the density behind the overlap, by differencing the overlap twice."""
+def _density(table):
+    """Heights and the density behind an overlap, by differencing it twice."""
     step = HEIGHTS[1] - HEIGHTS[0]
-    density = np.diff(_overlap_table(-0.7), 2) / step**2
-    height = HEIGHTS[1:-1]
-    assert np.sum(density) * step == pytest.approx(1.0, abs=1e-4)
-    assert np.sum(height * density) * step == pytest.approx(0.0, abs=1e-4)
-    assert np.sum(height**3 * density) * step == pytest.approx(-0.7, abs=2e-3)
+    return HEIGHTS[1:-1], np.diff(table, 2) / step
+
+
+@pytest.mark.parametrize("table", [_overlap_table, _weibull_table])
+def test_skewed_heights_have_the_skewness_asked_for(table):
+    height, density = _density(table(-0.7))
+    assert np.sum(density) == pytest.approx(1.0, abs=1e-4)
+    assert np.sum(height * density) == pytest.approx(0.0, abs=1e-4)
+    assert np.sum(height**2 * density) == pytest.approx(1.0, abs=1e-3)
+    assert np.sum(height**3 * density) == pytest.approx(-0.7, abs=2e-3)
+
+
+def test_a_plateau_on_a_rough_cut_keeps_mean_and_spread_and_leans_down():
+    height, density = _density(_two_process_table(0.7))
+    assert np.sum(density) == pytest.approx(1.0, abs=2e-3)
+    assert np.sum(height * density) == pytest.approx(0.0, abs=5e-3)
+    assert np.sum(height**2 * density) == pytest.approx(1.0, abs=0.03)
+    assert np.sum(height**3 * density) < -0.6
+
+
+@pytest.mark.literature("Kogut and Etsion, J. Appl. Mech. 69 (2002) 657")
+def test_literature_yielding_spheres_spread_to_twice_the_elastic_area(rigs):
+    """Past 110 times the approach at first yield the area is 2 pi R w; a soft surface has most summits there."""
+    rig, nominal = rigs["disc"]
+    contact = touch(lubricate(press(start(rig, nominal))))
+    thin = replace(contact, area=0.0 * contact.area)
+    added = yielding_spheres(thin, 400.0).area / contact.area
+    rough = contact.area > 0.02
+    np.testing.assert_allclose(added[rough], 1.0, atol=0.03)
+
+
+@pytest.mark.literature("R. S. Zhou, M. R. Hoeprich, J. Tribol. 113 (1991) 590, table 1")
+@pytest.mark.parametrize(("load", "speed", "moment"), [(2.0, 10.0, 0.3172), (2.0, 100.0, 1.1290), (3.0, 35.0, 0.6933)])
+def test_literature_rolling_force_of_the_fit_against_its_own_solutions(rigs, load, speed, moment):
+    """Twice the force times R over the load of a solution, in units that cancel; the fit is good to some 15 %."""
+    material = 3745.0
+    fit = 29.2 / material * (material * speed * 1e-11) ** 0.648 * (load * 1e-4) ** 0.246
+    reference = 29.2 / material * (material * 3.5e-10) ** 0.648 * 2e-4**0.246
+    assert fit / reference == pytest.approx(moment / 0.6600, rel=0.16)
+    rig, nominal = rigs["disc"]
+    c = start(rig, nominal)
+    group = c.pressure_viscosity * c.viscosity * c.entrainment / rig.radius
+    force = 29.2 * group**0.648 * (c.line_load / (rig.solid.reduced * rig.radius)) ** 0.246 * rig.radius
+    told = rolling_under_load(replace(c, recorded=np.zeros(len(rig.sequence))), 1.0).recorded
+    np.testing.assert_allclose(told, (force / c.pressure_viscosity / c.line_load)[:, 0])
+
+
+@pytest.mark.literature("S. Aihara, J. Tribol. 109 (1987) 471, equations 19 to 21")
+def test_literature_heat_of_the_inlet_takes_the_same_share_of_rolling_in_both_of_its_forms(rigs):
+    """Within a tenth, as the source shortens the one into the other for thermal loads up to some tens."""
+    rig, nominal = rigs["disc"]
+    c = replace(start(rig, nominal), recorded=np.zeros(len(rig.sequence)))
+    loading = rig.oil.thinning_at(c.temperature) * c.viscosity * c.entrainment**2 / rig.oil.conductivity
+    left = rolling_in_warm_inlets(c, 1.0).recorded / rolling_resistance(c, 1.0).recorded
+    np.testing.assert_allclose(left, (1 / (1 + 0.29 * loading**0.78))[:, 0], rtol=0.15)
+
+
+@pytest.mark.literature("AGMA 2001-D04, dynamic factor")
+def test_literature_dynamic_factor_of_a_quality_number(rigs):
+    """Q = 7: B = 0.731, A = 65.06; at 10 m/s K_v = ((65.06 + 44.72)/65.06)^0.731 = 1.466."""
+    rig, nominal = rigs["gear_pair"]
+    speed = np.full(len(rig.sequence), 10.0 * 60 / (np.pi * rig.extras["pitch_diameter"]))
+    held = start(replace(rig, conditions={**rig.conditions, "speed_rpm": speed}), nominal)
+    np.testing.assert_allclose(dynamic_load_of_quality(held, 1.0, 7.0).force / held.force, 1.466, rtol=1e-3)
 
 
 @pytest.mark.parametrize("name", [name for name, form in EVERY.items() if form.id in MEASUREMENT])

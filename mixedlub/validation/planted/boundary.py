@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mixedlub.validation.contact import Contact
+from mixedlub.validation.contact import KELVIN, Contact
 from mixedlub.validation.planted.shear import flash
 from mixedlub.validation.rig import Form, Knob, strength
 
@@ -19,6 +19,31 @@ def boundary_film_temperature(c: Contact, strength: float, activation: float, fl
     contact = c.temperature + flash_share * flash(c, friction)
     formed = ndtr((contact - activation) / 12.0)
     return replace(c, boundary_friction=c.boundary_friction * (1 - 0.5 * strength * formed))
+
+
+GAS = 8.314e-3
+"""kJ/(mol K)."""
+
+
+def _activated(c: Contact, energy: float, celsius: float) -> np.ndarray:
+    """exp(-(E/R)(1/T - 1/T_a)): the rate of a process over that at a temperature (C), E in kJ/mol."""
+    return np.exp(-energy / GAS * (1 / (c.temperature + KELVIN) - 1 / (celsius + KELVIN)))
+
+
+def boundary_film_desorbed(c: Contact, strength: float, energy: float, half: float) -> Contact:
+    """Langmuir: a film leaves hot surfaces, mu_B (1 + 0.5 strength/(1 + exp((E/R)(1/T - 1/T_a)))), half by T_a."""
+    bare = 1 / (1 + 1 / _activated(c, energy, half))
+    return replace(c, boundary_friction=c.boundary_friction * (1 + 0.5 * strength * bare))
+
+
+def boundary_film_defect(c: Contact, strength: float, energy: float, balance: float) -> Contact:
+    """Kingsbury: mu_B (1 + 0.5 strength [1 - exp(-(v_0/v_s) exp(-(E/R)(1/T - 1/T_a)))]), v_0 = 0.1 m/s at T_a.
+
+    A molecule stays for a time that falls with temperature; sites that it leaves during an encounter are bare. The
+    sliding speed from 1 mm/s on.
+    """
+    leaving = 0.1 / np.maximum(c.sliding, 1e-3) * _activated(c, energy, balance)
+    return replace(c, boundary_friction=c.boundary_friction * (1 - 0.5 * strength * np.expm1(-leaving)))
 
 
 def boundary_speed_dependence(c: Contact, strength: float) -> Contact:
@@ -36,9 +61,50 @@ def boundary_speed_logarithm(c: Contact, strength: float) -> Contact:
     return replace(c, boundary_friction=c.boundary_friction * np.maximum(grown, 0.1))
 
 
+def boundary_speed_eyring(c: Contact, strength: float, speed: float) -> Contact:
+    """Thermally activated shear: mu_B (1 + 0.2 strength [asinh(v_s/v_0)/asinh((1 m/s)/v_0) - 1]), 0.1 at least."""
+    reached = np.arcsinh(c.sliding / speed) / np.arcsinh(1 / speed)
+    grown = 1 + 0.2 * strength * (reached - 1)
+    return replace(c, boundary_friction=c.boundary_friction * np.maximum(grown, 0.1))
+
+
+def boundary_speed_exponential(c: Contact, strength: float, speed: float) -> Contact:
+    """Bo and Pavelescu: from a static to a kinetic value, mu_B (1 + 0.2 strength e^(-v_s/v_0)), 0.1 at least."""
+    grown = 1 + 0.2 * strength * np.exp(-c.sliding / speed)
+    return replace(c, boundary_friction=c.boundary_friction * np.maximum(grown, 0.1))
+
+
 def tribofilm_growth(c: Contact, strength: float, pace: float) -> Contact:
     """A reaction film grows with the root of the time run: mu_B (1 + 0.3 strength sqrt(s)/sqrt(s + pace))."""
     grown = np.sqrt(c.rig.sequence / (c.rig.sequence + pace))[:, None]
+    return replace(c, boundary_friction=c.boundary_friction * (1 + 0.3 * strength * grown))
+
+
+def tribofilm_of_first_order(c: Contact, strength: float, pace: float) -> Contact:
+    """A film covers what is bare: mu_B (1 + 0.3 strength (1 - e^(-s/pace)))."""
+    grown = -np.expm1(-c.rig.sequence / pace)[:, None]
+    return replace(c, boundary_friction=c.boundary_friction * (1 + 0.3 * strength * grown))
+
+
+ACTIVATION_VOLUME = 4e-29
+"""Of the reaction of an additive under stress (m3): some tens of cubic angstroms."""
+BOLTZMANN = 1.380649e-23
+
+
+def tribofilm_under_stress(c: Contact, strength: float, pace: float, energy: float) -> Contact:
+    """Stress and heat speed up the reaction: mu_B (1 + 0.3 strength (1 - e^(-X/pace))), X the sum of the rates so far.
+
+    A rate is exp(-(E - tau dV)/(k T)) over its mean, tau = mu_B pi p0/4 on average over the contacts of a reading, dV
+    some tens of cubic angstroms.
+    """
+    kelvin = c.temperature + KELVIN
+    pushed = 0.25 * np.pi * c.boundary_friction * c.pressure * ACTIVATION_VOLUME / (BOLTZMANN * kelvin)
+    rate = np.mean(_activated(c, energy, 80.0) * np.exp(pushed), axis=1)
+    order = np.argsort(c.rig.sequence, kind="stable")
+    steps = np.diff(c.rig.sequence[order], prepend=0.0)
+    run = np.empty(len(rate))
+    run[order] = np.cumsum(rate[order] * steps) / np.mean(rate)
+    grown = -np.expm1(-run / pace)[:, None]
     return replace(c, boundary_friction=c.boundary_friction * (1 + 0.3 * strength * grown))
 
 
@@ -53,6 +119,30 @@ EFFECTS = (
             Knob("flash_share", 0.0, 1.0, (0.0, 0.5)),
         ),
         "normal-cumulative activation on contact temperature",
+    ),
+    Form(
+        "boundary_film_temperature",
+        "boundary",
+        boundary_film_desorbed,
+        (
+            strength(-1.8, 4.0, (0.6, 1.3)),
+            Knob("energy", 20.0, 150.0, (40.0, 100.0)),
+            Knob("half", 40.0, 130.0, (65.0, 95.0)),
+        ),
+        "Langmuir 1918, desorption in heat",
+        within=True,
+        holds="unlike a logistic curve at four temperatures or more",
+    ),
+    Form(
+        "boundary_film_temperature",
+        "boundary",
+        boundary_film_defect,
+        (
+            strength(0.0, 4.0, (0.6, 1.3)),
+            Knob("energy", 20.0, 150.0, (40.0, 90.0)),
+            Knob("balance", 30.0, 150.0, (50.0, 100.0)),
+        ),
+        "Kingsbury 1958, fractional film defect",
     ),
     Form(
         "boundary_speed_dependence",
@@ -70,11 +160,46 @@ EFFECTS = (
         "Briscoe and Evans 1982",
     ),
     Form(
+        "boundary_speed_dependence",
+        "boundary",
+        boundary_speed_eyring,
+        (strength(-4.0, 4.0, (0.8, 1.8)), Knob("speed", 0.01, 2.0, (0.03, 0.5))),
+        "Eyring 1936, asinh of speed",
+    ),
+    Form(
+        "boundary_speed_dependence",
+        "boundary",
+        boundary_speed_exponential,
+        (strength(-4.0, 4.0, (0.8, 1.8)), Knob("speed", 0.03, 3.0, (0.1, 1.0))),
+        "Bo and Pavelescu 1982",
+    ),
+    Form(
         "tribofilm_growth",
         "boundary",
         tribofilm_growth,
         (strength(-2.5, 4.0, (0.6, 1.5)), Knob("pace", 0.05, 2.0, (0.1, 0.6))),
         "diffusion-limited (parabolic) growth",
+        rarity=0.6,
+    ),
+    Form(
+        "tribofilm_growth",
+        "boundary",
+        tribofilm_of_first_order,
+        (strength(-2.5, 4.0, (0.6, 1.5)), Knob("pace", 0.05, 2.0, (0.1, 0.6))),
+        "coverage of first order, Fujita and Spikes 2005",
+        rarity=0.6,
+        within=True,
+    ),
+    Form(
+        "tribofilm_growth",
+        "boundary",
+        tribofilm_under_stress,
+        (
+            strength(-2.5, 4.0, (0.6, 1.5)),
+            Knob("pace", 0.05, 2.0, (0.1, 0.6)),
+            Knob("energy", 10.0, 120.0, (30.0, 80.0)),
+        ),
+        "stress-promoted Arrhenius growth, Gosvami 2015, Zhang and Spikes 2016",
         rarity=0.6,
     ),
 )

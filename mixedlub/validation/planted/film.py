@@ -78,9 +78,32 @@ def _slip(c: Contact) -> np.ndarray:
 
 
 def heated_at_rolling_sum(c: Contact, strength: float) -> Contact:
-    """1/(1 + 0.1 (1 + 14.8 V^0.83) L^0.64) with L of the sum of speeds, V = slide over that sum."""
+    """h/(1 + 0.1 (1 + 14.8 V^0.83) L^0.64), L = strength beta eta0 (u1 + u2)^2/k, V the slide over the sum of speeds.
+
+    As public programs have it; with the mean speed the constant is 0.24.
+    """
     loading = strength * _heat(c, 2 * c.entrainment)
     return replace(c, film=c.film / (1 + 0.1 * (1 + 14.8 * (0.5 * _slip(c)) ** 0.83) * loading**0.64))
+
+
+def heated_under_pressure(c: Contact, strength: float) -> Contact:
+    """h (1 - 13.2 (p0/E') L^0.42)/(1 + 0.213 (1 + 2.23 S^0.83) L^0.64), L = strength beta eta0 u^2/k, a tenth at least.
+
+    Zhu and Cheng's factor as Zhou and Hoeprich, J. Tribol. 113 (1991) 590, equation 21, print it; S is the slide-roll
+    ratio. Gupta and others (1992) have the same.
+    """
+    loading = strength * _heat(c, c.entrainment)
+    rolling = np.maximum(1 - 13.2 * c.pressure / c.rig.solid.reduced * loading**0.42, 0.1)
+    return replace(c, film=c.film * rolling / (1 + 0.213 * (1 + 2.23 * _slip(c) ** 0.83) * loading**0.64))
+
+
+def starved_in_wide_contacts(c: Contact, strength: float, steepness: float) -> Contact:
+    """h (1 + r^4)^(-k/4), r = strength (eta u/(0.05 Pa m)) (b/100 um), as the degree of starvation eta u b/(h sigma).
+
+    A wide contact takes longer to refill; b is its half width, h the layer, sigma the surface tension.
+    """
+    over = strength * c.viscosity * c.entrainment / SUPPLY_LIMIT * c.half_width / 1e-4
+    return replace(c, film=c.film * (1 + over**4) ** (-0.25 * steepness))
 
 
 def starved_by_layer(c: Contact, strength: float, sharpness: float) -> Contact:
@@ -103,58 +126,77 @@ def thinned_by_eyring(c: Contact, strength: float) -> Contact:
     return replace(c, film=c.film * (np.arcsinh(rate) / rate) ** 0.67)
 
 
+def thinned_by_bair(c: Contact, strength: float, index: float) -> Contact:
+    """h [1 + 0.79 ((1 + S) N)^(1/(1 + 0.2 S))]^(-3.6 (1 - n)^1.7), N = strength eta0 u/(h 50 kPa).
+
+    S is the slide-roll ratio, n the power-law index of the oil.
+    """
+    slip = _slip(c)
+    group = (1 + slip) * strength * c.viscosity * c.entrainment / (c.film * 5e4)
+    return replace(c, film=c.film * (1 + 0.79 * group ** (1 / (1 + 0.2 * slip))) ** (-3.6 * (1 - index) ** 1.7))
+
+
+FLOW_EXPONENT = 0.69
+"""Of viscosity in the film law: a flow factor acts in the inlet as a viscosity over it."""
+
+
+def lay_of_flow_factors(c: Contact, strength: float) -> Contact:
+    """h phi^-0.69, phi = 1 - 1.18 s e^(-0.42 H) across the flow, 1 + 0.225 |s| H^-1.5 along it (s < 0), H = h/sigma.
+
+    Patir and Cheng's pressure flow factors of ridges three times as long as wide; below H = 1 that at 1 is kept.
+    """
+    height = np.maximum(c.film / c.roughness, 1.0)
+    across, along = 1 - 1.18 * max(strength, 0.0) * np.exp(-0.42 * height), 0.225 * max(-strength, 0.0) * height**-1.5
+    return replace(c, film=c.film * (across + along) ** -FLOW_EXPONENT)
+
+
+def lay_by_perturbation(c: Contact, strength: float) -> Contact:
+    """h phi^-0.69, phi = 1/(1 + 6 s/H^2) of ridges across the flow, 1 + 3 |s|/H^2 along it (s < 0), H = h/sigma.
+
+    Tripp's first order 1 - 3 ((2 - g)/(1 + g))/H^2 at ridges without end, of which the first is bounded.
+    """
+    close = (c.roughness / c.film) ** 2
+    opened = 6 * max(strength, 0.0) * close - 3 * max(-strength, 0.0) * close
+    return replace(c, film=c.film * np.where(opened < 0, 1 / (1 - opened), 1 + opened) ** FLOW_EXPONENT)
+
+
+_LIMITED = strength(0.0, 60.0, (0.5, 3.0))
 EFFECTS = (
     Form("inlet_shear_heating", "film", inlet_shear_heating, (strength(0.0, 12.0),), "Murch and Wilson 1975"),
     Form("inlet_shear_heating", "film", heated_by_hsu_lee, (strength(0.0, 12.0),), "Hsu and Lee 1994"),
-    Form(
-        "starvation",
-        "film",
-        starvation,
-        (strength(0.0, 30.0, (0.7, 2.5)), Knob("steepness", 0.25, 0.9, (0.35, 0.8))),
-        "Cann, Damiens and Lubrecht 2004, replenishment group",
-        within=True,
-    ),
-    Form(
-        "starvation",
-        "film",
-        starved_by_meniscus,
-        (strength(0.0, 12.0, (0.8, 2.0)), Knob("distance", 0.05, 3.0, (0.3, 1.5))),
-        "Hamrock and Dowson 1977",
-    ),
-    Form(
-        "inlet_shear_thinning",
-        "film",
-        inlet_shear_thinning,
-        (strength(0.0, 30.0, (0.7, 3.0)), Knob("plateau", 0.3, 0.85, (0.45, 0.75))),
-        "Cross with a second Newtonian plateau",
-    ),
-    Form(
-        "roughness_lay",
-        "film",
-        roughness_lay,
-        (strength(-0.9, 3.0, (0.5, 1.5)),),
-        "saturating lay factor after Zhu and Cheng 1988",
-    ),
-)
-
-OF_LOCAL_CONTACTS = (
-    *(form for form in EFFECTS if form.id != "roughness_lay"),
-    Form("inlet_shear_heating", "film", heated_at_rolling_sum, (strength(0.0, 6.0, (0.2, 0.8)),), "rolling-sum form"),
-    Form(
-        "starvation",
-        "film",
-        starved_by_layer,
-        (strength(0.0, 60.0, (0.7, 3.0)), Knob("sharpness", 1.5, 6.0, (2.0, 5.0))),
-        "Chevalier et al. 1998",
-    ),
-    Form(
-        "inlet_shear_thinning",
-        "film",
-        thinned_by_carreau,
-        (strength(0.0, 60.0, (0.5, 3.0)), Knob("index", 0.4, 0.95, (0.6, 0.85))),
-        "Carreau 1972",
-        within=True,
-    ),
+    Form("inlet_shear_heating", "film", heated_under_pressure, (strength(0.0, 8.0),), "Zhu and Cheng 1989",
+         holds="L up to 300"),
+    Form("inlet_shear_heating", "film", heated_at_rolling_sum, (strength(0.0, 6.0, (0.2, 0.8)),),
+         "Wilson and Sheu 1983"),
+    Form("starvation", "film", starvation, (strength(0.0, 30.0, (0.7, 2.5)), Knob("steepness", 0.25, 0.9, (0.35, 0.8))),
+         "Cann, Damiens and Lubrecht 2004, replenishment group", within=True),
+    Form("starvation", "film", starved_in_wide_contacts,
+         (strength(0.0, 60.0, (0.7, 2.5)), Knob("steepness", 0.25, 0.9, (0.35, 0.8))),
+         "Cann, Damiens and Lubrecht 2004, degree of starvation"),
+    Form("starvation", "film", starved_by_meniscus,
+         (strength(0.0, 12.0, (0.8, 2.0)), Knob("distance", 0.05, 3.0, (0.3, 1.5))), "Hamrock and Dowson 1977",
+         holds="meniscus nearer than m*"),
+    Form("starvation", "film", starved_by_layer,
+         (strength(0.0, 60.0, (0.7, 3.0)), Knob("sharpness", 1.5, 6.0, (2.0, 5.0))), "Chevalier et al. 1998",
+         holds="g 2 to 5"),
+    Form("inlet_shear_thinning", "film", inlet_shear_thinning,
+         (strength(0.0, 30.0, (0.7, 3.0)), Knob("plateau", 0.3, 0.85, (0.45, 0.75))),
+         "Cross with a second Newtonian plateau"),
+    Form("inlet_shear_thinning", "film", thinned_by_carreau, (_LIMITED, Knob("index", 0.4, 0.95, (0.6, 0.85))),
+         "Carreau 1972"),
     Form("inlet_shear_thinning", "film", thinned_by_eyring, (strength(0.0, 60.0, (0.5, 2.0)),), "Eyring 1936"),
-)
-"""Forms for films, friction histories and tooth contacts, which are read contact by contact."""
+    Form("inlet_shear_thinning", "film", thinned_by_bair, (_LIMITED, Knob("index", 0.6, 0.95, (0.65, 0.9))),
+         "Bair 2005", within=True, holds="n above 0.6, N up to 30"),
+    Form("roughness_lay", "film", roughness_lay, (strength(-0.9, 3.0, (0.5, 1.5)),),
+         "saturating lay factor after Zhu and Cheng 1988"),
+    Form("roughness_lay", "film", lay_of_flow_factors, (strength(-4.0, 0.98, (0.3, 0.8)),), "Patir and Cheng 1978",
+         holds="H above 1"),
+    Form("roughness_lay", "film", lay_by_perturbation, (strength(-2.0, 2.0, (0.1, 0.5)),), "Tripp 1983", within=True,
+         holds="H above 3"),
+)  # fmt: skip
+
+OF_HISTORIES = tuple(form for form in EFFECTS if form.id != "roughness_lay")
+"""Forms for friction histories."""
+
+OF_LOCAL_CONTACTS = tuple(replace(form, within=form.within or form.law is thinned_by_carreau) for form in OF_HISTORIES)
+"""Forms for films and tooth contacts, whose thinning may set in as sharply as Carreau's."""

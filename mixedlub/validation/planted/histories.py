@@ -50,8 +50,13 @@ def _run_ins(time: np.ndarray) -> tuple[Form, ...]:
     def worn_in(state: Any, strength: float, pace: float) -> Any:
         return _scaled(state, 1 + 0.3 * strength * (1 - np.log1p(time / pace) / np.log1p(1 / pace)))
 
+    def exponential(state: Any, strength: float, pace: float) -> Any:
+        """mu (1 + 0.3 strength e^(-t/pace))."""
+        return _scaled(state, 1 + 0.3 * strength * np.exp(-time / pace))
+
     pace = Knob("pace", 0.01, 1.0, (0.03, 0.25))
     return (
+        Form("friction_run_in", "boundary", exponential, (FALL, pace), "Blau 2005, exponential", within=True),
         Form("friction_run_in", "boundary", hyperbolic, (FALL, pace), "second-order wear-in", within=True),
         Form("friction_run_in", "boundary", power_law,
              (FALL, pace, Knob("exponent", 0.3, 2.0, (0.5, 1.5))), "power law", within=True),
@@ -72,8 +77,15 @@ def _growths(time: np.ndarray) -> tuple[Form, ...]:
     def parabolic(state: Any, strength: float, pace: float) -> Any:
         return _scaled(state, 1 + 0.4 * strength * np.sqrt(time / (time + pace)))
 
+    def first_order(state: Any, strength: float, pace: float) -> Any:
+        """mu (1 + 0.4 strength (1 - e^(-t/pace)))."""
+        return _scaled(state, 1 - 0.4 * strength * np.expm1(-time / pace))
+
     steep = Knob("exponent", 1.2, 4.0, (1.6, 3.0))
     return (
+        Form("tribofilm_growth", "boundary", first_order,
+             (EITHER, Knob("pace", 0.05, 2.0, (0.1, 0.6))), "coverage of first order, Fujita and Spikes 2005",
+             within=True),
         Form("tribofilm_growth", "boundary", logistic,
              (EITHER, Knob("middle", 0.05, 0.8, (0.15, 0.5)), Knob("width", 0.1, 0.5, (0.15, 0.35))), "autocatalytic"),
         Form("tribofilm_growth", "boundary", avrami,
@@ -218,8 +230,15 @@ def creeps(slip: np.ndarray) -> tuple[Form, ...]:
     def gradual(state: Any, strength: float) -> Any:
         return reached(state, -np.expm1(-slip / (0.008 * strength))) if strength > 0 else state
 
+    def cubic(state: Any, strength: float) -> Any:
+        """mu [1 - (1 - slip/S)^3] below the slip S = 0.016 strength, mu beyond it."""
+        return reached(state, 1 - np.maximum(1 - slip / (0.016 * strength), 0.0) ** 3) if strength > 0 else state
+
     size = (strength(0.0, 12.0, (0.4, 2.0)),)
-    return tuple(
-        Form("contact_creep", "loss", law, size, source, within=law is gradual)
-        for law, source in ((tangent, "hyperbolic tangent"), (polach, "Polach 2005"), (gradual, "exponential"))
+    forms = (
+        (tangent, "hyperbolic tangent", False),
+        (polach, "Polach 2005", False),
+        (gradual, "exponential", True),
+        (cubic, "Vermeulen and Johnson 1964", True),
     )
+    return tuple(Form("contact_creep", "loss", law, size, source, within=within) for law, source, within in forms)

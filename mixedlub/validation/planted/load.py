@@ -47,6 +47,31 @@ def dynamic_load_of_two_orders(c: Contact, strength: float, resonance_rpm: float
     return _forced(c, c.force * np.clip(waved, 0.05, None))
 
 
+def _speed(c: Contact) -> np.ndarray:
+    """Speed of the pinion over 1500 rpm (readings by 1)."""
+    return np.asarray(c.rig.conditions["speed_rpm"].astype(float)[:, None] / 1500.0)
+
+
+def dynamic_load_of_quality(c: Contact, strength: float, quality: float) -> Contact:
+    """AGMA 2001: force (1 + strength (K_v - 1)), K_v = ((A + (200 v)^0.5)/A)^B, v the pitch-line speed in m/s.
+
+    A = 50 + 56 (1 - B), B = 0.25 (12 - Q)^(2/3), Q the quality number.
+    """
+    power = 0.25 * (12 - quality) ** (2 / 3)
+    pitch = 50 + 56 * (1 - power)
+    speed = _speed(c) * 1500 * np.pi / 60 * c.rig.extras["pitch_diameter"]
+    factor = ((pitch + np.sqrt(200 * speed)) / pitch) ** power
+    return _forced(c, c.force * (1 + strength * (factor - 1)))
+
+
+def dynamic_load_of_errors(c: Contact, strength: float, fixed: float) -> Contact:
+    """ISO 6336-1 below resonance: force (1 + 0.1 strength (n/1500 rpm) [1 - f + f (150 Nm/T)]), ``fixed`` = f.
+
+    Added force grows with speed; that of pitch errors is as large whatever the load, that of deflection grows with it.
+    """
+    return _forced(c, c.force * (1 + 0.1 * strength * _speed(c) * (1 - fixed + fixed / _torque_ratio(c))))
+
+
 def misalignment(c: Contact, strength: float) -> Contact:
     """Load on part of the face, less so when torque closes the gap: line load (1 + 0.3 s (150 Nm/T)^0.5)."""
     return replace(c, line_load=c.line_load * (1 + 0.3 * strength / np.sqrt(_torque_ratio(c))))
@@ -54,13 +79,23 @@ def misalignment(c: Contact, strength: float) -> Contact:
 
 def tip_relief(c: Contact, strength: float) -> Contact:
     """Parabolic relief hands the tips' load to the other pair: a share 0.5 s (150 Nm/T)^0.5, 0.95 at most."""
+    return _relieved(c, strength, 2.0)
+
+
+def tip_relief_of_straight_flanks(c: Contact, strength: float) -> Contact:
+    """Linear relief hands the tips' load to the other pair: a share 0.5 s (150 Nm/T)^0.5 that falls evenly inwards."""
+    return _relieved(c, strength, 1.0)
+
+
+def _relieved(c: Contact, strength: float, power: float) -> Contact:
+    """Load moved to the other pair by relief that grows with a power of the distance from its start."""
     ratio = c.rig.extras["contact_ratio"] - 1
     whole = c.rig.conditions["torque_Nm"].astype(float)[:, None] / c.rig.extras["base_radius"]
     share = c.force / whole
     taken = np.clip(0.5 * strength / np.sqrt(_torque_ratio(c)), 0.0, 0.95)
     early, late = c.rig.phase / ratio, (c.rig.phase - 1) / ratio
-    first = share * (1 - taken * (1 - early) ** 2) + (1 - share) * taken * early**2
-    last = share * (1 - taken * late**2) + (1 - share) * taken * (1 - late) ** 2
+    first = share * (1 - taken * (1 - early) ** power) + (1 - share) * taken * early**power
+    last = share * (1 - taken * late**power) + (1 - share) * taken * (1 - late) ** power
     moved = np.where(early <= 1, first, np.where(late >= 0, last, share))
     return _forced(c, whole * moved)
 
@@ -87,6 +122,24 @@ EFFECTS = (
         rarity=0.5,
     ),
     Form(
+        "dynamic_load",
+        "load",
+        dynamic_load_of_quality,
+        (strength(0.0, 5.0, (0.5, 1.5)), Knob("quality", 5.0, 11.0, (6.0, 10.0))),
+        "dynamic factor of AGMA 2001",
+        rarity=0.5,
+        holds="v up to (A + Q - 3)^2/200",
+    ),
+    Form(
+        "dynamic_load",
+        "load",
+        dynamic_load_of_errors,
+        (strength(0.0, 10.0, (0.7, 1.6)), Knob("fixed", 0.0, 1.0, (0.3, 0.8))),
+        "dynamic factor of ISO 6336-1, method C",
+        rarity=0.5,
+        holds="below resonance",
+    ),
+    Form(
         "misalignment",
         "load",
         misalignment,
@@ -100,6 +153,14 @@ EFFECTS = (
         tip_relief,
         (strength(0.0, 3.0, (0.4, 1.2)),),
         "parabolic relief, load handed to the neighbour pair",
+        rarity=0.5,
+    ),
+    Form(
+        "tip_relief",
+        "load",
+        tip_relief_of_straight_flanks,
+        (strength(0.0, 3.0, (0.4, 1.2)),),
+        "linear relief, load handed to the neighbour pair",
         rarity=0.5,
     ),
 )

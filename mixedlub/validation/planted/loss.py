@@ -42,13 +42,58 @@ def _resisted(c: Contact, per_width: np.ndarray) -> Contact:
     return _added(c, (per_width / c.line_load)[:, 0])
 
 
+def _pumping(c: Contact, speed_power: float, load_power: float) -> np.ndarray:
+    """(G U)^a W^b R/alpha (N/m): G = alpha E', U = eta0 u/(E' R), W the line load over E' R."""
+    size = c.rig.solid.reduced * c.rig.radius
+    thick = c.pressure_viscosity * c.rig.solid.reduced * c.viscosity * c.entrainment / size
+    return np.asarray(thick**speed_power * (c.line_load / size) ** load_power * c.rig.radius / c.pressure_viscosity)
+
+
+def _inlet_heat(c: Contact) -> np.ndarray:
+    """L = beta eta0 u^2/k."""
+    beta = c.rig.oil.thinning_at(c.temperature)
+    return np.asarray(beta * c.viscosity * c.entrainment**2 / c.rig.oil.conductivity)
+
+
 def rolling_resistance(c: Contact, strength: float) -> Contact:
     """Goksem-Hargreaves pumping force f' = 4.318 (G U)^0.658 W^0.0126 R/alpha per width."""
-    modulus, radius = c.rig.solid.reduced, c.rig.radius
-    speed = c.viscosity * c.entrainment / (modulus * radius)
-    load = c.line_load / (modulus * radius)
-    group = (c.pressure_viscosity * modulus * speed) ** 0.658 * load**0.0126
-    return _resisted(c, strength * 4.318 * group * radius / c.pressure_viscosity)
+    return _resisted(c, strength * 4.318 * _pumping(c, 0.658, 0.0126))
+
+
+def rolling_free_of_load(c: Contact, strength: float) -> Contact:
+    """Biboulet and Houpert: f' = 1.47 U^0.75 E' R per width, U = 2 eta0 u/(E' R), whatever the load."""
+    size = c.rig.solid.reduced * c.rig.radius
+    return _resisted(c, strength * 1.47 * (2 * c.viscosity * c.entrainment / size) ** 0.75 * size)
+
+
+def rolling_under_load(c: Contact, strength: float) -> Contact:
+    """Zhou and Hoeprich: f' = 29.2 (G U)^0.648 W^0.246 R/alpha per width, with heating of the inlet left out.
+
+    J. Tribol. 113 (1991) 590, equation 17, a fit to solutions for W of 1e-4 to 4e-4 and U of 1e-11 to 1e-9.
+    """
+    return _resisted(c, strength * 29.2 * _pumping(c, 0.648, 0.246))
+
+
+def rolling_as_bearings_are_tested(c: Contact, strength: float) -> Contact:
+    """Aihara: f' = 88 (G U)^0.658 W^0.31 R/alpha/(1 + 0.29 L^0.78) per width, L = beta eta0 u^2/k.
+
+    J. Tribol. 109 (1987) 471, equation 27 over 2 R, from tests of some two hundred bearings and of two discs.
+    """
+    return _resisted(c, strength * 88.0 * _pumping(c, 0.658, 0.31) / (1 + 0.29 * _inlet_heat(c) ** 0.78))
+
+
+def rolling_in_warm_inlets(c: Contact, strength: float) -> Contact:
+    """Goksem and Hargreaves with heat: f' = (R W/alpha) D^(52/79 + L^(20/63)/94) e^(-114/701)/(1 + (86/209) L^(70/99)).
+
+    L = beta eta0 u^2/k; exponents as Aihara's equation 20 prints them. D = 11.81 G U/W^1.5 makes the limit without heat
+    their isothermal force.
+    """
+    size = c.rig.solid.reduced * c.rig.radius
+    load, heat = c.line_load / size, _inlet_heat(c)
+    thick = c.pressure_viscosity * c.rig.solid.reduced * c.viscosity * c.entrainment / size
+    dynamic = 11.812 * thick / load**1.5
+    grown = dynamic ** (52 / 79 + heat ** (20 / 63) / 94) * np.exp(-114 / 701) / (1 + 86 / 209 * heat ** (70 / 99))
+    return _resisted(c, strength * load * grown * c.rig.radius / c.pressure_viscosity)
 
 
 def elastic_hysteresis(c: Contact, strength: float) -> Contact:
@@ -81,6 +126,77 @@ def windage_in_mist(c: Contact, strength: float) -> Contact:
         radius = 0.5 * c.rig.extras[key]
         total = total + (1 + 2.3 * c.rig.width / radius) * (_rpm(c) * ratio) ** 2.8 * radius**4.6
     return _added(c, 5 * strength * 2.82e-4 * total * thickened)
+
+
+def _each_wheel(c: Contact) -> tuple[tuple[float, np.ndarray, float], ...]:
+    """Pitch radius (m), angular speed (rad/s) and teeth of both wheels, the pinion first."""
+    extras, pinion = c.rig.extras, _rpm(c) * np.pi / 30
+    return (
+        (0.5 * extras["pitch_diameter"], pinion, extras["teeth"]),
+        (0.5 * extras["wheel_diameter"], pinion * extras["ratio"], extras["teeth"] / extras["ratio"]),
+    )
+
+
+def windage_of_teeth(c: Contact, strength: float) -> Contact:
+    """Diab: 0.5 C rho w^3 R^5 a wheel, C = 60 Re^-0.25 (b/R)^0.8 z^-0.4 2 (h/R)^0.56, h = R/2, mist of 5 x air.
+
+    Re = rho w R^2/eta with air of 1.2 kg/m3 and 1.8e-5 Pa s.
+    """
+    total = np.zeros(len(c.recorded))
+    for radius, speed, teeth in _each_wheel(c):
+        reynolds = 1.2 * speed * radius**2 / 1.8e-5
+        drag = 120 * 0.5**0.56 * reynolds**-0.25 * (c.rig.width / radius) ** 0.8 * teeth**-0.4
+        total = total + 0.5 * drag * 1.2 * speed**3 * radius**5
+    return _added(c, 5 * strength * total)
+
+
+def _dipping(c: Contact) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
+    """Half rho w^3 R^3 S of a wheel that dips by half its radius (W), Froude and Reynolds numbers, width/diameter."""
+    (radius, speed, teeth) = _each_wheel(c)[1]
+    nu, width = 1e-6 * _viscosity_mm2_s(c), c.rig.width
+    wetted = np.arccos(0.5)
+    flanks = 2 * teeth * width * 2.25 * c.rig.extras["module"] * wetted / (np.pi * np.cos(np.radians(20.0)))
+    area = radius**2 * (2 * wetted - np.sin(2 * wetted)) + 2 * radius * width * wetted + flanks
+    power = 0.5 * c.rig.oil.density_at(c.rig.temperature) * speed**3 * radius**3 * area
+    return power, speed**2 * radius / 9.81, speed * radius**2 / nu, width / (2 * radius)
+
+
+def churning_of_splash(c: Contact, strength: float) -> Contact:
+    """Changenet and Velex, slow: 0.5 rho w^3 R^3 S C, C = 1.366 (h/D)^0.45 (V/D^3)^0.1 Fr^-0.6 Re^-0.21, h = D/4.
+
+    The wheel dips into 1.5 D^3 of oil.
+    """
+    power, froude, reynolds, _ = _dipping(c)
+    return _added(c, strength * power * 1.366 * 0.25**0.45 * 1.5**0.1 * froude**-0.6 * reynolds**-0.21)
+
+
+def churning_past_splash(c: Contact, strength: float) -> Contact:
+    """Changenet and Velex: the slow law, and C = 3.644 (h/D)^0.1 (V/D^3)^-0.35 Fr^-0.88 (b/D)^0.85 at speed.
+
+    Evenly from the one to the other between w^2 (R b m)^(1/3) of 750 and 1250 m/s2.
+    """
+    power, froude, reynolds, slim = _dipping(c)
+    radius, speed, _ = _each_wheel(c)[1]
+    flung = np.clip((speed**2 * np.cbrt(radius * c.rig.width * c.rig.extras["module"]) - 750) / 500, 0.0, 1.0)
+    slow = 1.366 * 0.25**0.45 * 1.5**0.1 * froude**-0.6 * reynolds**-0.21
+    fast = 3.644 * 0.25**0.1 * 1.5**-0.35 * froude**-0.88 * slim**0.85
+    return _added(c, strength * power * ((1 - flung) * slow + flung * fast))
+
+
+def churning_of_standard(c: Contact, strength: float) -> Contact:
+    """ISO/TR 14179-1: P = 12 W strength (n/1500 rpm)^3 (nu/15 mm2/s), by its powers of speed and viscosity."""
+    return _added(c, 12 * strength * (_rpm(c) / 1500) ** 3 * _viscosity_mm2_s(c) / 15)
+
+
+def churning_of_boness(c: Contact, strength: float, reynolds: float) -> Contact:
+    """Boness: w^3 C, C = 20/Re below 2000, 8.6e-4 Re^(1/3) to 1e5, 5e8/Re^2 beyond; 12 W at 1500 rpm, 15 mm2/s, Re 1e4.
+
+    ``reynolds`` is that at 1500 rpm and 15 mm2/s, over 1e4; thin oil is churned more than thick oil in between.
+    """
+    n = _rpm(c) / 1500
+    number = 1e4 * reynolds * n / (_viscosity_mm2_s(c) / 15)
+    drag = np.where(number < 2000, 20 / number, np.where(number < 1e5, 8.6e-4 * np.cbrt(number), 5e8 / number**2))
+    return _added(c, 12 * strength * _heavy(c) * n**3 * drag / (8.6e-4 * np.cbrt(1e4)))
 
 
 def churning(c: Contact, strength: float, speed_power: float, viscosity_power: float) -> Contact:
@@ -134,6 +250,40 @@ def bearing_drag(c: Contact, strength: float, sliding_share: float) -> Contact:
     return _added(c, strength * 0.08 * moment * n * np.pi / 30)
 
 
+def bearing_drag_of_rollers(c: Contact, strength: float, sliding_share: float) -> Contact:
+    """SKF-like roller bearings: rolling phi_ish phi_rs F^0.31 (nu n)^0.6 plus sliding F mu_sl.
+
+    Sliding friction is 0.02 in a full film; as the ball bearings otherwise.
+    """
+    n, nu, size = _rpm(c), _viscosity_mm2_s(c), 50.0
+    shear = 1 / (1 + 1.84e-9 * (n * size) ** 1.28 * nu**0.64)
+    starved = np.exp(-3e-8 * nu * n * 100 * np.sqrt(5.1 / (2 * 40.0)))
+    load = c.rig.conditions["torque_Nm"].astype(float) / 150
+    boundary = np.exp(-2.6e-8 * (n * nu) ** 1.4 * size)
+    sliding = (0.12 * boundary + 0.02 * (1 - boundary)) / 0.02
+    moment = shear * starved * load**0.31 * (n * nu / 22500) ** 0.6 + sliding_share * sliding * load
+    return _added(c, strength * 0.08 * moment * n * np.pi / 30)
+
+
+def bearing_drag_of_palmgren(c: Contact, strength: float, loaded: float) -> Contact:
+    """Palmgren: M_0 = 1e-7 f_0 (nu n)^(2/3) d^3 N mm, constant below nu n = 2000, and M_1 = f_1 F d.
+
+    f_0 = 2, d = 50 mm. Both shafts; their bearings carry the tooth force, and ``loaded`` is M_1 at 150 Nm over M_0 at
+    1500 rpm and 15 mm2/s.
+    """
+    load, total = c.rig.conditions["torque_Nm"].astype(float) / 150, np.zeros(len(c.recorded))
+    for ratio in (1.0, c.rig.extras["ratio"]):
+        motion = np.maximum(_rpm(c) * ratio * _viscosity_mm2_s(c), 2000.0)
+        moment = motion ** (2 / 3) + loaded * load * 22500 ** (2 / 3)
+        total = total + 2e-10 * 50**3 * moment * _rpm(c) * ratio * np.pi / 30
+    return _added(c, 2 * strength * total)
+
+
+def seal_drag_of_standard(c: Contact, strength: float) -> Contact:
+    """ISO/TR 14179-2: a lip seal on each shaft takes 7.69e-6 d^2 n W (mm, rpm), d = 35 mm, whatever the oil."""
+    return _added(c, strength * 7.69e-6 * 35.0**2 * _rpm(c) * (1 + c.rig.extras["ratio"]))
+
+
 def seal_drag(c: Contact, strength: float) -> Contact:
     """Lip seals soften in heat (Linke): (145 - 1.6 T + 350 loglog(nu40 + 0.8)) d^2 n 1e-7 W, d 35 mm."""
     nu40 = 1e6 * c.rig.oil.kinematic_at(np.array(40.0))
@@ -143,7 +293,34 @@ def seal_drag(c: Contact, strength: float) -> Contact:
 
 EFFECTS = (
     Form("rolling_resistance", "loss", rolling_resistance, (strength(0.0, 8.0),), "Goksem and Hargreaves 1978"),
+    Form(
+        "rolling_resistance",
+        "loss",
+        rolling_free_of_load,
+        (strength(0.0, 8.0),),
+        "Biboulet and Houpert 2010",
+        within=True,
+        holds="W above 1e-4",
+    ),
+    Form(
+        "rolling_resistance",
+        "loss",
+        rolling_under_load,
+        (strength(0.0, 8.0),),
+        "Zhou and Hoeprich 1991",
+        holds="W 1e-4 to 4e-4",
+    ),
+    Form("rolling_resistance", "loss", rolling_as_bearings_are_tested, (strength(0.0, 8.0),), "Aihara 1987"),
+    Form(
+        "rolling_resistance",
+        "loss",
+        rolling_in_warm_inlets,
+        (strength(0.0, 8.0),),
+        "Goksem and Hargreaves 1978, heated inlet",
+        holds="L up to 5000",
+    ),
     Form("windage", "loss", windage, (strength(0.0, 200.0),), "Dawson 1984", within=True),
+    Form("windage", "loss", windage_of_teeth, (strength(0.0, 200.0),), "Diab et al. 2004", within=True),
     Form("windage", "loss", windage_in_mist, (strength(0.0, 200.0),), "Anderson and Loewenthal 1980"),
     Form(
         "churning",
@@ -167,6 +344,31 @@ EFFECTS = (
     Form(
         "churning",
         "loss",
+        churning_of_splash,
+        (strength(0.0, 20.0),),
+        "Changenet and Velex 2007, slow",
+        within=True,
+        holds="up to 750 m/s2",
+    ),
+    Form("churning", "loss", churning_past_splash, (strength(0.0, 20.0),), "Changenet and Velex 2007"),
+    Form(
+        "churning",
+        "loss",
+        churning_of_standard,
+        (strength(0.0, 20.0),),
+        "ISO/TR 14179-1",
+        within=True,
+    ),
+    Form(
+        "churning",
+        "loss",
+        churning_of_boness,
+        (strength(0.0, 20.0), Knob("reynolds", 0.1, 20.0, (0.5, 4.0))),
+        "Boness 1989",
+    ),
+    Form(
+        "churning",
+        "loss",
         churning_past_transition,
         (strength(0.0, 20.0), Knob("transition", 0.2, 20.0, (0.8, 3.0))),
         "discs in a housing, Daily and Nece 1960",
@@ -178,7 +380,23 @@ EFFECTS = (
         (strength(0.0, 20.0), Knob("sliding_share", 0.0, 2.0, (0.2, 0.8))),
         "SKF friction model form",
     ),
+    Form(
+        "bearing_drag",
+        "loss",
+        bearing_drag_of_rollers,
+        (strength(0.0, 20.0), Knob("sliding_share", 0.0, 2.0, (0.2, 0.8))),
+        "SKF friction model, roller bearings",
+    ),
+    Form(
+        "bearing_drag",
+        "loss",
+        bearing_drag_of_palmgren,
+        (strength(0.0, 20.0), Knob("loaded", 0.0, 4.0, (0.3, 1.5))),
+        "Palmgren 1964",
+        within=True,
+    ),
     Form("seal_drag", "loss", seal_drag, (strength(0.0, 20.0),), "Linke 1971"),
+    Form("seal_drag", "loss", seal_drag_of_standard, (strength(0.0, 20.0),), "ISO/TR 14179-2", within=True),
     Form(
         "elastic_hysteresis",
         "loss",

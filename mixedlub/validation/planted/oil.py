@@ -26,6 +26,17 @@ def viscosity_drift(c: Contact, strength: float) -> Contact:
     return replace(c, viscosity=c.viscosity * np.exp(0.2 * strength * c.rig.sequence**1.5)[:, None])
 
 
+def viscosity_sheared_down(c: Contact, strength: float, pace: float) -> Contact:
+    """Polymers break until short ones are left: eta (1 - 0.2 strength (1 - e^(-s/pace))), a tenth at least."""
+    left = np.maximum(1 + 0.2 * strength * np.expm1(-c.rig.sequence / pace), 0.1)
+    return replace(c, viscosity=c.viscosity * left[:, None])
+
+
+def viscosity_diluted(c: Contact, strength: float) -> Contact:
+    """A liquid mixes in at an even pace, Arrhenius' law of mixtures: eta exp(0.2 strength s)."""
+    return replace(c, viscosity=c.viscosity * np.exp(0.2 * strength * c.rig.sequence)[:, None])
+
+
 def warmed(c: Contact, rise: np.ndarray) -> Contact:
     """The contact with its oil ``rise`` kelvin warmer, calibration and ageing kept."""
     oil, warm = c.rig.oil, c.temperature + rise
@@ -88,6 +99,23 @@ EFFECTS = (
         (strength(-4.0, 4.0, (0.7, 1.8)),),
         "accelerating oxidation",
         rarity=0.6,
+    ),
+    Form(
+        "viscosity_drift",
+        "oil",
+        viscosity_sheared_down,
+        (strength(0.0, 4.0, (0.7, 1.8)), Knob("pace", 0.05, 2.0, (0.1, 0.6))),
+        "permanent shear loss of polymers",
+        rarity=0.6,
+    ),
+    Form(
+        "viscosity_drift",
+        "oil",
+        viscosity_diluted,
+        (strength(-4.0, 4.0, (0.7, 1.8)),),
+        "dilution by Arrhenius' law of mixtures 1887",
+        rarity=0.6,
+        within=True,
     ),
     Form("bulk_temperature", "surface", bulk_temperature, (strength(0.0, 3.0),), "ISO/TR 15144-1"),
     Form(

@@ -63,6 +63,28 @@ def film_heating(c: Contact, strength: float) -> Contact:
     return _heated(c, dry, strength * (walls * (1 - c.area) / c.pressure + inside))
 
 
+def film_heated_alone(c: Contact, strength: float) -> Contact:
+    """Crook-Archard across the film alone: mean rise strength q h/(12 k) between walls that stay cold, q = tau v_s."""
+    return _heated(c, 0.0, strength * c.sliding * c.film / (12 * c.rig.oil.conductivity))
+
+
+def walls_heated_alone(c: Contact, strength: float) -> Contact:
+    """Blok: the walls' mean flash 0.542 strength mu w v_s/[B (sqrt u1 + sqrt u2) sqrt b] by the whole friction."""
+    walls = strength * flash(c, 1.0)
+    return _heated(c, walls * c.boundary_friction * c.area, walls * (1 - c.area) / c.pressure)
+
+
+def film_heated_in_layers(c: Contact, strength: float) -> Contact:
+    """Nahme: tau asinh(sqrt N)/sqrt(N (1 + N)), N = strength beta tau v_s h/(8 k), the film thinnest in its hot middle.
+
+    Exact where the stress is proportional to a viscosity that falls as exp(-beta T) between walls that stay cold; here
+    beta is that of the oil at rest and tau the cold stress.
+    """
+    heat = strength * c.rig.oil.thinning_at(c.temperature) * c.stress * c.sliding * c.film
+    number = np.maximum(heat / (8 * c.rig.oil.conductivity), 1e-12)
+    return replace(c, stress=c.stress * np.arcsinh(np.sqrt(number)) / np.sqrt(number * (1 + number)))
+
+
 def limiting_shear_stress(c: Contact, strength: float) -> Contact:
     """Bair-Winer ceiling: tau_L [1 - exp(-tau/tau_L)], tau_L = 0.045/strength of the mean Hertz pressure."""
     if strength <= 0:
@@ -83,6 +105,24 @@ def limiting_stress_in_hot_oil(c: Contact, strength: float, fall: float) -> Cont
     left = np.maximum(1 - fall * (c.temperature - 40.0), 0.2)
     ceiling = 0.045 / strength * left * 0.25 * np.pi * c.pressure
     return replace(c, stress=ceiling * np.tanh(c.stress / ceiling))
+
+
+def limiting_stress_cut(c: Contact, strength: float) -> Contact:
+    """min(tau, tau_L): a film that yields at once, tau_L = 0.045/strength of the mean Hertz pressure."""
+    if strength <= 0:
+        return c
+    return replace(c, stress=np.minimum(c.stress, 0.045 / strength * 0.25 * np.pi * c.pressure))
+
+
+def limiting_stress_with_offset(c: Contact, strength: float, offset: float) -> Contact:
+    """tau_L [1 - exp(-tau/tau_L)], tau_L = tau_0 + gamma p: (0.045/strength) pi/4 ((1 - offset) p0 + offset 1 GPa).
+
+    The limit at no pressure and its slope, of which ``offset`` is the share of the first at 1 GPa.
+    """
+    if strength <= 0:
+        return c
+    ceiling = 0.045 / strength * 0.25 * np.pi * ((1 - offset) * c.pressure + offset * 1e9)
+    return replace(c, stress=ceiling * -np.expm1(-c.stress / ceiling))
 
 
 def coating_insulation(c: Contact, strength: float) -> Contact:
@@ -113,8 +153,19 @@ def contact_creep_polach(c: Contact, strength: float) -> Contact:
     return replace(c, stress=c.stress * 2 / np.pi * (grip / (1 + grip**2) + np.arctan(grip)))
 
 
+def contact_creep_carter(c: Contact, strength: float) -> Contact:
+    """Carter, a line contact: tau [1 - (1 - slip/S)^2] below the slip S = 0.016 strength, tau beyond it."""
+    if strength <= 0:
+        return c
+    sticking = np.maximum(1 - c.sliding / c.entrainment / (0.016 * strength), 0.0)
+    return replace(c, stress=c.stress * (1 - sticking**2))
+
+
 EFFECTS = (
     Form("film_heating", "shear", film_heating, (strength(0.0, 4.0, (0.5, 1.2)),), "Crook 1961, Archard 1959"),
+    Form("film_heating", "shear", film_heated_alone, (strength(0.0, 12.0, (0.5, 2.0)),), "Archard 1959, film alone"),
+    Form("film_heating", "shear", walls_heated_alone, (strength(0.0, 6.0, (0.5, 1.5)),), "Blok 1937, walls alone"),
+    Form("film_heating", "shear", film_heated_in_layers, (strength(0.0, 20.0, (0.7, 3.0)),), "Nahme 1940, Crook 1961"),
     Form(
         "limiting_shear_stress",
         "shear",
@@ -128,6 +179,22 @@ EFFECTS = (
         limiting_stress_in_hot_oil,
         (strength(0.0, 3.0, (0.6, 1.3)), Knob("fall", 0.0, 0.006, (0.002, 0.006))),
         "Gecim and Winer 1980, falling with temperature",
+        holds="-20 to 150 C",
+    ),
+    Form(
+        "limiting_shear_stress",
+        "shear",
+        limiting_stress_cut,
+        (strength(0.0, 3.0, (1.6, 2.8)),),
+        "cut off at the limit, Evans and Johnson 1986",
+        within=True,
+    ),
+    Form(
+        "limiting_shear_stress",
+        "shear",
+        limiting_stress_with_offset,
+        (strength(0.0, 3.0, (0.6, 1.3)), Knob("offset", 0.0, 1.0, (0.2, 0.7))),
+        "Johnson and Tevaarwerk 1977, tau_0 + gamma p",
     ),
     Form(
         "coating_insulation",
@@ -147,4 +214,13 @@ EFFECTS = (
         within=True,
     ),
     Form("contact_creep", "shear", contact_creep_polach, (strength(0.0, 12.0, (1.0, 4.0)),), "Polach 2005", rarity=0.5),
+    Form(
+        "contact_creep",
+        "shear",
+        contact_creep_carter,
+        (strength(0.0, 12.0, (1.0, 4.0)),),
+        "Carter 1926",
+        rarity=0.5,
+        within=True,
+    ),
 )

@@ -10,7 +10,7 @@ import numpy as np
 
 from mixedlub.validation.contact import PRIORS, contact_model, contact_theta
 from mixedlub.validation.planted import FORMS, OUTSIDE, viscosity_temperature
-from mixedlub.validation.planted.film import OF_LOCAL_CONTACTS
+from mixedlub.validation.planted.film import OF_HISTORIES
 from mixedlub.validation.planted.histories import Track, creeps, histories
 from mixedlub.validation.planted.measurement import channel, force_cell
 from mixedlub.validation.rig import Act, Chain, Form, Knob, Rig, play, strength
@@ -206,7 +206,7 @@ def draw_stribeck(rng: np.random.Generator) -> Rig:
     forms = (
         *found["friction_run_in"],
         *found["tribofilm_growth"],
-        *OF_LOCAL_CONTACTS,
+        *OF_HISTORIES,
         *usable,
         *viscosity_temperature.of_contacts(inputs),
     )
