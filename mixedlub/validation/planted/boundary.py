@@ -139,7 +139,7 @@ EFFECTS = (
         boundary_film_defect,
         (
             strength(0.0, 4.0, (0.6, 1.3)),
-            Knob("energy", 20.0, 150.0, (40.0, 90.0)),
+            Knob("energy", 15.0, 100.0, (25.0, 50.0)),
             Knob("balance", 30.0, 150.0, (50.0, 100.0)),
         ),
         "Kingsbury 1958, fractional film defect",

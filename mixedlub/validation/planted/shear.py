@@ -193,7 +193,7 @@ EFFECTS = (
         "limiting_shear_stress",
         "shear",
         limiting_stress_with_offset,
-        (strength(0.0, 3.0, (0.6, 1.3)), Knob("offset", 0.0, 1.0, (0.2, 0.7))),
+        (strength(0.0, 3.0, (0.6, 1.3)), Knob("offset", 0.0, 1.0, (0.1, 0.45))),
         "Johnson and Tevaarwerk 1977, tau_0 + gamma p",
     ),
     Form(
