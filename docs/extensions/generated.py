@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+import form_tables
 import scores
 import thresholds
 from sphinx.application import Sphinx
@@ -72,6 +73,7 @@ def pieces() -> dict[str, str]:
         "rooms": _rooms(),
         "ranges": _ranges(),
         "thresholds": thresholds.tables(),
+        "forms": form_tables.tables(),
     }
 
 

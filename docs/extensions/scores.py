@@ -93,5 +93,16 @@ def by_kind(text: str) -> str:
     return "\n".join([lines[0], "|---" * len(rows[0]) + "|", *lines[1:]])
 
 
+def by_form(text: str) -> dict[tuple[str, str], tuple[int, int, int]]:
+    """Right, right or tied, and all cases by effect and source, from the block that starts with ``by form``.
+
+    >>> by_form("by form  source  right  tied  identifiable  cases\\nchurning  Boness 1989  1  2  2  3\\n")
+    {('churning', 'Boness 1989'): (1, 2, 3)}
+    """
+    (block,) = (b for b in text.split("\n\n") if b.startswith("by form"))
+    rows = [_GAP.split(line.strip()) for line in block.splitlines()[1:]]
+    return {(row[0], row[1]): (int(row[2]), int(row[3]), int(row[5])) for row in rows}
+
+
 def _plain(goal: str) -> str:
     return goal.replace(">=", "≥").replace("<=", "≤").strip()

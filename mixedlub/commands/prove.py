@@ -38,6 +38,12 @@ def command(
         bool,
         typer.Option("--poor", help="Poor recordings of all kinds: few readings, noise that lasts, wrong sds, ..."),
     ] = False,
+    forms: Annotated[
+        bool,
+        typer.Option(
+            "--forms", help="Single effects alone, every published form of each in turn, on rigs of all kinds."
+        ),
+    ] = False,
     kinds: Annotated[
         str | None, typer.Option(metavar="KIND,...", help="Kinds of rig to deal, such as gear_pair,film.")
     ] = None,
@@ -46,7 +52,11 @@ def command(
     ] = 969710,
     cases: Annotated[
         int | None,
-        typer.Option(metavar="N", min=5, help=f"How many cases to deal; default {FULL}, with --rigs {RIGS}."),
+        typer.Option(
+            metavar="N",
+            min=5,
+            help=f"How many cases to deal; default {FULL}, with --rigs {RIGS}, with --forms one a form.",
+        ),
     ] = None,
     jobs: Annotated[int, typer.Option(metavar="N", min=1, help="Cases at a time.")] = 2,
 ) -> None:
@@ -61,21 +71,25 @@ def command(
     from mixedlub.diagnosis.report.files import diagnose
     from mixedlub.validation import run
     from mixedlub.validation.battery import fewest, plan
+    from mixedlub.validation.forms import every_form, plan_forms
     from mixedlub.validation.poor import plan_poor
     from mixedlub.validation.rigs import CONTACTS, OTHERS
     from mixedlub.validation.worlds.deal import plan_worlds, worlds_of
 
     if worlds and poor:
         raise InputError("is dealt of rigs that follow the base laws: leave out --worlds", where="--poor")
+    if forms and (worlds or poor):
+        raise InputError("is dealt of good recordings of rigs that follow the base laws", where="--forms")
     every = worlds_of((*CONTACTS, *OTHERS)) if worlds and not rigs else worlds_of(OTHERS) if worlds else ()
-    every = (*CONTACTS, *OTHERS) if poor and not rigs else every
+    every = (*CONTACTS, *OTHERS) if (poor or forms) and not rigs else every
     chosen = _chosen(kinds) if kinds else every or (OTHERS if rigs else CONTACTS)
-    contacts = set(chosen) <= set(CONTACTS) and not (worlds or poor)
+    contacts = set(chosen) <= set(CONTACTS) and not (worlds or poor or forms)
+    least = len(every_form(chosen)) if forms else fewest(chosen) * (2 if poor else 1)
     default = (QUICK if contacts else RIGS_QUICK) if quick else (FULL if contacts or worlds or poor else RIGS)
+    default = least if forms else max(default, least)
     prefix = "" if chosen in (CONTACTS, every) else "rigs_" if chosen == OTHERS else f"{'_'.join(chosen)}_"
-    folder = output_folder(
-        out, NAME, ("worlds_" if worlds else "poor_" if poor else "") + prefix + ("quick" if quick else "battery")
-    )
+    dealing = "worlds_" if worlds else "poor_" if poor else "forms_" if forms else ""
+    folder = output_folder(out, NAME, dealing + prefix + ("quick" if quick else "battery"))
     with Progress(console=Console(stderr=True)) as bar:
         tasks = {}
 
@@ -87,13 +101,13 @@ def command(
         run.validate(
             folder,
             diagnose,
-            cases or max(default, fewest(chosen) * (2 if poor else 1)),
+            cases or default,
             seed,
             chosen,
             jobs=jobs,
             baselines=contacts and not quick,
             progress=show,
-            dealt=plan_worlds if worlds else plan_poor if poor else plan,
+            dealt=plan_worlds if worlds else plan_poor if poor else plan_forms if forms else plan,
         )
     echo((folder / "score.txt").read_text(encoding="utf-8"))
     echo(f"written to {folder}")

@@ -45,8 +45,8 @@ from mixedlub.chain.priors import LogUniform, Normal, Uniform
     equation=r"\mu_B \leftarrow \mu_B\,\left[(v^2 + v_0^2)/(v_r^2 + v_0^2)\right]^{\kappa/2},\quad "
     r"v = v_s^{1-a} u^a",
     source="H. Spikes, Tribol. Lett. 60 (2015) 5: friction grows with the logarithm of speed under adsorbed "
-    "films and falls without; written as a small power, which is that logarithm to first order; level below a speed as "
-    "the asinh of H. Eyring, J. Chem. Phys. 4 (1936) 283, for thermally activated shear",
+    "films and falls without; written as a small power, which is that logarithm to first order; constant below a speed "
+    "as the asinh of H. Eyring, J. Chem. Phys. 4 (1936) 283, for thermally activated shear",
     fingerprint={"load": "-", "oil_temperature": "+", "roughness": "+"},
     separated_by="film ratios below 0.5 at small sliding: friction follows the logarithm of sliding speed where the "
     "film cannot matter; it vanishes at thick films",
@@ -64,8 +64,8 @@ def boundary_speed_dependence(
     """Boundary friction rises or falls with the logarithm of speed.
 
     Publications use the sliding speed or, at a fixed slide-roll ratio, the rolling speed. The speed at which the stated
-    value holds is known only to lie within the tested range. Below a speed of at least 1 mm/s, at which thermal motion alone
-    shears the layers, friction no longer changes.
+    value holds is known only to lie within the tested range. Below a speed of at least 1 mm/s, at which thermal motion
+    alone shears the layers, friction no longer changes.
 
     >>> power = dict(slope=0.1, reference=0.1, rolling=0.0)
     >>> grown = boundary_speed_dependence(0.1, 1.0, 2.0, **power, slowest=1e-3)

@@ -40,7 +40,8 @@ REFERENCE_PRESSURE = 1e9
     r"\tau_L = \Lambda\,[(1 - a)\,p_0 + a\,p_u]\,e^{-b(\theta_{oil} - 40\,^\circ\text{C})},\ p_u = 1\,\text{GPa}",
     source="S. Bair, W. O. Winer, J. Lubr. Technol. 101 (1979) 258, tau_L = Lambda p (a = 0); "
     "tau_L = tau_0 + gamma p as K. L. Johnson, J. L. Tevaarwerk, Proc. R. Soc. A 356 (1977) 215, and V. Wikstroem, "
-    "E. Hoeglund, J. Tribol. 116 (1994) 612; joined smoothly to the film's law; falling with temperature as in L. Houpert, L. Flamand, D. Berthe, J. Lubr. Technol. 103 (1981) 526",
+    "E. Hoeglund, J. Tribol. 116 (1994) 612; joined smoothly to the film's law; falling with "
+    "temperature as in L. Houpert, L. Flamand, D. Berthe, J. Lubr. Technol. 103 (1981) 526",
     special_cases={"Bair and Winer": {"fall": 0.0, "offset": 0.0}},
     fingerprint={"load": "-", "speed": "-", "oil_temperature": "+", "roughness": "+", "slide_roll_ratio": "-"},
     separated_by="smooth surfaces, cold oil, high load: friction then stays at one level whatever the sliding and "

@@ -21,7 +21,8 @@ IDENTIFIABLE = 9.0
 class Truth:
     """The truth of a case; arrays run over all its readings, visible and withheld.
 
-    ``within`` is whether the catalogue's laws can become the planted ones; None where nothing is planted. ``laws`` are
+    ``within`` is whether the catalogue's laws can become the planted ones; None where nothing is planted. ``forms`` are
+    the sources of the planted forms. ``laws`` are
     the steps at which the rig follows another law; recalibration cannot hide those that are ``clear``, alone or beside
     the others, and no law of another step comes near those that are ``sole``. ``flaws`` are what is wrong with the
     recording.
@@ -44,6 +45,7 @@ class Truth:
     base: np.ndarray
     sd: np.ndarray
     within: bool | None = None
+    forms: tuple[str, ...] = ()
     no_data_sheet: bool = False
     rivals: frozenset[str] = frozenset()
     laws: frozenset[str] = frozenset()
@@ -132,6 +134,7 @@ def read_truth(folder: Path) -> Truth:
         base=rows["base"],
         sd=rows["sd"],
         within=all(forms) if forms else None,
+        forms=tuple(str(one.get("form", "")) for one in truth.get("info", ())),
         no_data_sheet=bool(truth.get("unnamed_oil", False)),
         rivals=frozenset(truth["alternatives"]) - {"none"},
         laws=frozenset(truth.get("laws", ())),

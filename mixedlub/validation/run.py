@@ -20,7 +20,7 @@ from mixedlub.validation.poor import POOR_FIGURES
 from mixedlub.validation.rigs import CONTACTS, KINDS
 from mixedlub.validation.sample_case import Order
 from mixedlub.validation.score import FIGURES, Score, score
-from mixedlub.validation.tables import by_kind, wrong
+from mixedlub.validation.tables import by_form, by_kind, wrong
 from mixedlub.validation.worlds.figures import WORLD_FIGURES
 from profiles.errors import InputError
 
@@ -149,8 +149,8 @@ def judge(out: Path, sealed: Sequence[Path], rivals: dict[str, Path] | None = No
     """Scores of the answers: over all cases as ``all``, by kind, and of each rival over all by its name.
 
     A case on which the tool broke down is answered wrong, one that it refused is not counted. Writes ``score.json``,
-    ``score_NAME.json`` for each of the others, ``score.txt`` with all figures, the counts by kind and the wrong
-    answers, and the figures as SVG.
+    ``score_NAME.json`` for each of the others, ``score.txt`` with all figures, the counts by kind and by form and the
+    wrong answers, and the figures as SVG.
     """
     truths = [read_truth(case) for case in sealed]
     ids = sorted({name for truth in truths for name in truth.candidates})
@@ -174,6 +174,7 @@ def judge(out: Path, sealed: Sequence[Path], rivals: dict[str, Path] | None = No
     text += [
         by_kind({**pairs, **{name: some for name, some in unnamed.items() if some}}),
         *([by_kind(flawed)] if flawed else []),
+        by_form(pairs),
         wrong(pairs),
     ]
     text += ["broke down without an answer, counted as wrong above", *failed[BROKEN], ""] if failed[BROKEN] else []

@@ -44,7 +44,8 @@ class Order:
     """What one case is to be: kind, class, planted effects, and how visible they are.
 
     ``laws`` are the steps at which the rig follows another law; a ``strong`` first one is none that recalibration of
-    the base model could hide. ``flaws`` are what is wrong with the recording.
+    the base model could hide. ``flaws`` are what is wrong with the recording. ``law`` is the form of a single effect by
+    the name of its law, any form if empty.
     """
 
     name: str
@@ -58,6 +59,7 @@ class Order:
     laws: tuple[str, ...] = ()
     strong: bool = False
     flaws: tuple[str, ...] = ()
+    law: str = ""
 
     @property
     def sizes(self) -> tuple[int, int] | None:
@@ -134,6 +136,7 @@ def _rig_for(rng: np.random.Generator, order: Order) -> tuple[Rig, World, tuple[
                 continue
             rig, world = following(rig, followed), followed
         pool = rig.outside if order.label == "unknown" else rig.forms
+        pool = tuple(form for form in pool if order.law in ("", form.law.__name__))
         options = [[form for form in pool if form.id == name and form.rarity > 0] for name in order.effects]
         if all(options):
             return rig, world, tuple(forms[int(rng.integers(len(forms)))] for forms in options)

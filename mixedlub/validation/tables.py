@@ -41,6 +41,24 @@ def by_kind(pairs: Mapping[str, Sequence[Pair]]) -> str:
     return "\n".join(lines) + "\n"
 
 
+def by_form(pairs: Mapping[str, Sequence[Pair]]) -> str:
+    """How often each form of a single effect was named: right, right or tied, cases that are identifiable, cases."""
+    found: dict[tuple[str, str], list[Pair]] = {}
+    for truth, answer in (pair for some in pairs.values() for pair in some):
+        if truth.group in ("single", "measurement") and truth.forms:
+            found.setdefault((truth.effects[0], truth.forms[0]), []).append((truth, answer))
+    lines = [f"{'by form':28s}  {'source':64s}  right  tied  identifiable  cases"]
+    for (effect, source), some in sorted(found.items()):
+        counts = (
+            sum(right(t, a) for t, a in some),
+            sum(tied(t, a) for t, a in some),
+            sum(t.identifiable for t, _ in some),
+            len(some),
+        )
+        lines.append(f"{effect:28s}  {source:64s}  {counts[0]:5d}  {counts[1]:4d}  {counts[2]:12d}  {counts[3]:5d}")
+    return "\n".join(lines) + "\n"
+
+
 def _named(label: frozenset[str]) -> str:
     return "+".join(sorted(label))
 

@@ -63,15 +63,19 @@ def under_load(load: np.ndarray) -> tuple[Form, ...]:
         return replace(d, running=d.running + 0.5 * strength * d.level * part * d.sign)
 
     def loaded(d: Any, strength: float, exponent: float) -> Any:
+        """A torque proportional to w^n, w the load over the largest, n the exponent."""
         return lost(d, strength, share**exponent)
 
     def bending(d: Any, strength: float, bend: float) -> Any:
+        """A torque proportional to (1 - b) w + b w^2, w the load over the largest, b the bend."""
         return lost(d, strength, with_square(share, bend))
 
     def sticking(d: Any, strength: float, pull: float) -> Any:
+        """A torque proportional to (w + a)^(2/3) - a^(2/3), w the load over the largest, a the pull."""
         return lost(d, strength, adhering(share, pull))
 
     def hersey(d: Any, strength: float, width: float, power: float) -> Any:
+        """A torque proportional to 1/(1 + H^2), H = (speed/width)/w^power, w the load over the largest."""
         return lost(d, 0.6 * strength, over_hersey(d.speed, share, width, power))
 
     size, rise = strength(0.0, 6.0), strength(0.0, 8.0)
@@ -136,15 +140,19 @@ def presliding(share: np.ndarray) -> tuple[Form, ...]:
         return replace(d, running=d.drag + part * (d.running - d.drag))
 
     def lugre(d: Any, strength: float) -> Any:
+        """Mean of 1 - e^-x over a reading, x its travel, 0.4 % strength of full speed for one."""
         return given(d, strength, bristles)
 
     def dahl(d: Any, strength: float, exponent: float) -> Any:
+        """1 - (1 + (i - 1) x)^(-1/(i - 1)), x the travel, i the exponent."""
         return given(d, strength, lambda travel: ball_bearing(travel, exponent))
 
     def bouc_wen(d: Any, strength: float) -> Any:
+        """tanh x, x the travel."""
         return given(d, strength, hysteretic)
 
     def mindlin(d: Any, strength: float) -> Any:
+        """1 - (1 - 2 x/3)^(3/2) up to x = 3/2, x the travel."""
         return given(d, strength, partial_slip)
 
     size = strength(0.0, 12.0, (0.4, 2.0))
@@ -191,12 +199,15 @@ def stirring(share: np.ndarray, real: bool) -> tuple[Form, ...]:
         return replace(d, running=d.running + 0.7 * strength * d.level * torque)
 
     def disc(d: Any, strength: float, reynolds: float) -> Any:
+        """A torque of Re^-1/2 n^2 where laminar and Re^-1/5 n^2 where turbulent, from Re = 3e5 on."""
         return dragged(d, strength, torque_share(share, 1e5 * reynolds, free_disc))
 
     def rotor(d: Any, strength: float, reynolds: float) -> Any:
+        """A torque of Re^-1, Re^-0.6, Re^-0.5 and Re^-0.2 times n^2, whichever is largest."""
         return dragged(d, strength, torque_share(share, 1e3 * reynolds, rotor_in_gap))
 
     def fan(d: Any, strength: float) -> Any:
+        """A torque proportional to n^2."""
         return dragged(d, strength, share * np.abs(share))
 
     size, rarity = strength(0.0, 12.0, (0.4, 2.0)), float(real)

@@ -39,15 +39,19 @@ def histories(time: np.ndarray) -> dict[str, tuple[Form, ...]]:
 
 def _run_ins(time: np.ndarray) -> tuple[Form, ...]:
     def hyperbolic(state: Any, strength: float, pace: float) -> Any:
+        """mu (1 + 0.3 strength/(1 + t/pace))."""
         return _scaled(state, 1 + 0.3 * strength / (1 + time / pace))
 
     def power_law(state: Any, strength: float, pace: float, exponent: float) -> Any:
+        """mu (1 + 0.3 strength (1 + t/pace)^-n), n the exponent."""
         return _scaled(state, 1 + 0.3 * strength * (1 + time / pace) ** -exponent)
 
     def stretched(state: Any, strength: float, pace: float, exponent: float) -> Any:
+        """mu (1 + 0.3 strength e^(-(t/pace)^n)), n the exponent."""
         return _scaled(state, 1 + 0.3 * strength * np.exp(-((time / pace) ** exponent)))
 
     def worn_in(state: Any, strength: float, pace: float) -> Any:
+        """mu (1 + 0.3 strength [1 - ln(1 + t/pace)/ln(1 + 1/pace)])."""
         return _scaled(state, 1 + 0.3 * strength * (1 - np.log1p(time / pace) / np.log1p(1 / pace)))
 
     def exponential(state: Any, strength: float, pace: float) -> Any:
@@ -68,13 +72,16 @@ def _run_ins(time: np.ndarray) -> tuple[Form, ...]:
 
 def _growths(time: np.ndarray) -> tuple[Form, ...]:
     def logistic(state: Any, strength: float, middle: float, width: float) -> Any:
+        """mu (1 + 0.4 strength [g(t) - g(0)]), g = 1/(1 + e^(-(t - m)/(m width))), m the middle."""
         at_start = 1 / (1 + np.exp(middle / (width * middle)))
         return _scaled(state, 1 + 0.4 * strength * (1 / (1 + np.exp(-(time - middle) / (width * middle))) - at_start))
 
     def avrami(state: Any, strength: float, pace: float, exponent: float) -> Any:
+        """mu (1 + 0.4 strength (1 - e^(-(t/pace)^n))), n the exponent."""
         return _scaled(state, 1 + 0.4 * strength * -np.expm1(-((time / pace) ** exponent)))
 
     def parabolic(state: Any, strength: float, pace: float) -> Any:
+        """mu (1 + 0.4 strength (t/(t + pace))^0.5)."""
         return _scaled(state, 1 + 0.4 * strength * np.sqrt(time / (time + pace)))
 
     def first_order(state: Any, strength: float, pace: float) -> Any:
@@ -128,10 +135,12 @@ def _swings(place: np.ndarray, waves: float) -> np.ndarray:
 
 def _wanderings(time: np.ndarray) -> tuple[Form, ...]:
     def sines(state: Any, strength: float, waves: float, phase: float) -> Any:
+        """mu (1 + 0.1 strength [sin 2 pi (n t + phase) + 0.6 sin 2 pi (1.63 n t + 0.3)]), n the waves."""
         swing = np.sin(2 * np.pi * (waves * time + phase)) + 0.6 * np.sin(2 * np.pi * (1.63 * waves * time + 0.3))
         return _scaled(state, 1 + 0.1 * strength * swing)
 
     def torn(state: Any, strength: float, waves: float) -> Any:
+        """mu (1 + 0.25 strength g(n t)): g rises with a root and falls at once, n times."""
         return _scaled(state, 1 + 0.25 * strength * _swings(time, waves))
 
     def cosines(state: Any, strength: float, **more: float) -> Any:
@@ -219,15 +228,18 @@ def creeps(slip: np.ndarray) -> tuple[Form, ...]:
         return replace(state, friction=state.friction * share[:, None])
 
     def tangent(state: Any, strength: float) -> Any:
+        """mu tanh(slip/(0.008 strength))."""
         return reached(state, np.tanh(slip / (0.008 * strength))) if strength > 0 else state
 
     def polach(state: Any, strength: float) -> Any:
+        """mu (2/pi) [g/(1 + g^2) + arctan g], g = slip/(0.006 strength)."""
         if strength <= 0:
             return state
         grip = slip / (0.006 * strength)
         return reached(state, 2 / np.pi * (grip / (1 + grip**2) + np.arctan(grip)))
 
     def gradual(state: Any, strength: float) -> Any:
+        """mu [1 - e^(-slip/(0.008 strength))]."""
         return reached(state, -np.expm1(-slip / (0.008 * strength))) if strength > 0 else state
 
     def cubic(state: Any, strength: float) -> Any:

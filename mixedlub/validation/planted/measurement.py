@@ -29,14 +29,17 @@ def heat_leak_by_convection(c: Contact, strength: float, conductance: float) -> 
 
 
 def sensor_offset(c: Contact, strength: float) -> Contact:
+    """y + strength times 5 W or a friction coefficient of 0.002."""
     return replace(c, recorded=c.recorded + strength * _scale(c))
 
 
 def sensor_gain(c: Contact, strength: float) -> Contact:
+    """y (1 + 0.1 strength)."""
     return replace(c, recorded=c.recorded * (1 + 0.1 * strength))
 
 
 def sensor_drift(c: Contact, strength: float) -> Contact:
+    """y (1 + 0.1 strength s), s from 0 to 1 over the programme."""
     return replace(c, recorded=c.recorded * (1 + 0.1 * strength * c.rig.sequence))
 
 
@@ -71,14 +74,17 @@ def diffused(sequence: np.ndarray) -> np.ndarray:
 
 
 def sensor_warming(c: Contact, strength: float, pace: float) -> Contact:
+    """y (1 + 0.1 strength (1 - e^(-s/pace))/(1 - e^(-1/pace)))."""
     return replace(c, recorded=c.recorded * (1 + 0.1 * strength * warmed_up(c.rig.sequence, pace)))
 
 
 def sensor_creep(c: Contact, strength: float, onset: float) -> Contact:
+    """y (1 + 0.1 strength ln(1 + s/onset)/ln(1 + 1/onset))."""
     return replace(c, recorded=c.recorded * (1 + 0.1 * strength * crept(c.rig.sequence, onset)))
 
 
 def sensor_soaking(c: Contact, strength: float) -> Contact:
+    """y (1 + 0.1 strength s^0.5)."""
     return replace(c, recorded=c.recorded * (1 + 0.1 * strength * diffused(c.rig.sequence)))
 
 
@@ -144,27 +150,35 @@ def channel(sequence: np.ndarray, zero: bool, gain: bool, drifting_zero: bool) -
     """Faults of any channel: a wrong zero, a wrong span, a creeping span, and where so a creeping zero."""
 
     def sensor_offset(state: Any, strength: float) -> Any:
+        """y + 0.05 strength of the median reading."""
         return replace(state, recorded=state.recorded + 0.05 * strength * _usual(state.recorded))
 
     def sensor_gain(state: Any, strength: float) -> Any:
+        """y (1 + 0.1 strength)."""
         return replace(state, recorded=state.recorded * (1 + 0.1 * strength))
 
     def steady(state: Any, strength: float) -> Any:
+        """y (1 + 0.1 strength s), s from 0 to 1 over the programme."""
         return replace(state, recorded=state.recorded * (1 + 0.1 * strength * sequence))
 
     def settling(state: Any, strength: float, pace: float) -> Any:
+        """y (1 + 0.1 strength (1 - e^(-s/pace))/(1 - e^(-1/pace)))."""
         return replace(state, recorded=state.recorded * (1 + 0.1 * strength * warmed_up(sequence, pace)))
 
     def logarithmic(state: Any, strength: float, onset: float) -> Any:
+        """y (1 + 0.1 strength ln(1 + s/onset)/ln(1 + 1/onset))."""
         return replace(state, recorded=state.recorded * (1 + 0.1 * strength * crept(sequence, onset)))
 
     def soaking(state: Any, strength: float) -> Any:
+        """y (1 + 0.1 strength s^0.5)."""
         return replace(state, recorded=state.recorded * (1 + 0.1 * strength * diffused(sequence)))
 
     def zero_drift(state: Any, strength: float) -> Any:
+        """y + 0.1 strength s of the median reading."""
         return replace(state, recorded=state.recorded + 0.1 * strength * _usual(state.recorded) * sequence)
 
     def zero_settling(state: Any, strength: float, pace: float) -> Any:
+        """y + 0.1 strength (1 - e^(-s/pace))/(1 - e^(-1/pace)) of the median reading."""
         more = 0.1 * strength * _usual(state.recorded) * warmed_up(sequence, pace)
         return replace(state, recorded=state.recorded + more)
 
@@ -204,12 +218,15 @@ def force_cell(load: np.ndarray, sequence: np.ndarray) -> tuple[Form, ...]:
         return replace(state, recorded=state.recorded + share * zero_of_force(state.recorded, load))
 
     def unzeroed(state: Any, strength: float) -> Any:
+        """y + 0.005 strength w_max/w of the median reading, w the load."""
         return off(state, strength)
 
     def creeping(state: Any, strength: float) -> Any:
+        """y + 0.01 strength s w_max/w of the median reading, w the load."""
         return off(state, 2 * strength * sequence)
 
     def warming(state: Any, strength: float, pace: float) -> Any:
+        """y + 0.01 strength (1 - e^(-s/pace))/(1 - e^(-1/pace)) w_max/w of the median reading, w the load."""
         return off(state, 2 * strength * warmed_up(sequence, pace))
 
     either = strength(-8.0, 8.0)

@@ -100,10 +100,12 @@ def cooled_by_slotte(c: Contact, strength: float, above: float) -> Contact:
 
 
 def cooled_by_andrade(c: Contact, strength: float) -> Contact:
+    """eta = A exp(B/T) through both known viscosities."""
     return _cooled(c, strength, andrade)
 
 
 def cooled_by_reynolds(c: Contact, strength: float) -> Contact:
+    """eta = A exp(-b T) through both known viscosities."""
     return _cooled(c, strength, reynolds)
 
 

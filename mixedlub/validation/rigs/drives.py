@@ -58,14 +58,17 @@ def _added(d: Drive, more: np.ndarray) -> Drive:
 
 
 def gaussian(d: Drive, strength: float, width: float) -> Drive:
+    """0.3 strength of the level times exp(-(v/width)^2)."""
     return _added(d, 0.3 * strength * d.level * np.exp(-((d.speed / width) ** 2)) * d.sign)
 
 
 def lorentzian(d: Drive, strength: float, width: float) -> Drive:
+    """0.3 strength of the level over 1 + (v/width)^2."""
     return _added(d, 0.3 * strength * d.level / (1 + (d.speed / width) ** 2) * d.sign)
 
 
 def bo_pavelescu(d: Drive, strength: float, width: float, exponent: float) -> Drive:
+    """0.3 strength of the level times exp(-|v/width|^n), n the exponent."""
     return _added(d, 0.3 * strength * d.level * np.exp(-(np.abs(d.speed / width) ** exponent)) * d.sign)
 
 
@@ -81,15 +84,18 @@ def unlike_flanks(d: Drive, strength: float, viscous: float) -> Drive:
 
 
 def carreau_grease(d: Drive, strength: float, index: float) -> Drive:
+    """Drag times (1 + (8 strength v)^2)^((n - 1)/2), v over full speed, n the index."""
     rate = strength * np.abs(d.speed) * 8
     return replace(d, drag=d.drag * (1 + rate**2) ** (0.5 * (index - 1)))
 
 
 def cross_grease(d: Drive, strength: float, power: float) -> Drive:
+    """Drag over 1 + (4 strength v)^p, v over full speed, p the power."""
     return replace(d, drag=d.drag / (1 + (strength * np.abs(d.speed) * 4) ** power))
 
 
 def eyring_grease(d: Drive, strength: float) -> Drive:
+    """Drag times asinh(x)/x, x = 6 strength v, v over full speed."""
     rate = np.maximum(6 * strength * np.abs(d.speed), 1e-9)
     return replace(d, drag=d.drag * np.arcsinh(rate) / rate)
 
@@ -130,9 +136,11 @@ def _temperature_forms(celsius: np.ndarray) -> tuple[Form, ...]:
     kelvin = celsius + 273.15
 
     def vogel(d: Drive, strength: float) -> Drive:
+        """Drag times exp(strength (700/(t + 95) - 700/135)), t in C."""
         return replace(d, drag=d.drag * np.exp(strength * (700 / (celsius + 95) - 700 / 135)))
 
     def arrhenius(d: Drive, strength: float) -> Drive:
+        """Drag times exp(2800 strength (1/T - 1/313.15)), T in K."""
         return replace(d, drag=d.drag * np.exp(2800 * strength * (1 / kelvin - 1 / 313.15)))
 
     def power(d: Drive, strength: float) -> Drive:
@@ -153,12 +161,15 @@ def _additive_forms(content: np.ndarray) -> tuple[Form, ...]:
         return replace(d, dry=d.dry * np.clip(1 - 0.35 * strength * covered, 0.02, None))
 
     def filled(d: Drive, strength: float, half: float) -> Drive:
+        """1 - e^(-v/half) of the film, v over full speed."""
         return lowered(d, strength, -np.expm1(-share / half))
 
     def hill(d: Drive, strength: float, half: float) -> Drive:
+        """v^1.4/(v^1.4 + half^1.4) of the film, v over full speed."""
         return lowered(d, strength, share**1.4 / (share**1.4 + half**1.4))
 
     def temkin(d: Drive, strength: float, half: float) -> Drive:
+        """ln(1 + v/half)/ln(1 + 1/half) of the film, v over full speed."""
         return lowered(d, strength, np.log1p(share / half) / np.log1p(1 / half))
 
     knobs = (strength(0.0, 2.4), Knob("half", 0.02, 0.6, (0.05, 0.3)))
@@ -172,10 +183,12 @@ def _position_forms(angle: np.ndarray) -> tuple[Form, ...]:
     turn = np.radians(angle)
 
     def two_tones(d: Drive, strength: float, order: float, phase: float) -> Drive:
+        """0.2 strength of the level times sin(n a + phase) + 0.2 sin(2 n a + 0.5), a the turn, n the order."""
         wave = np.sin(order * turn + phase) + 0.2 * np.sin(2 * order * turn + 0.5)
         return replace(d, running=d.running + 0.2 * strength * d.level * wave)
 
     def triangle(d: Drive, strength: float, order: float, phase: float) -> Drive:
+        """0.2 strength of the level times a triangular wave of the turn."""
         wave = 2 / np.pi * np.arcsin(np.sin(order * turn + phase))
         return replace(d, running=d.running + 0.2 * strength * d.level * wave)
 

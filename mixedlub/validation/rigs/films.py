@@ -50,10 +50,12 @@ def thickened_near_the_wall(c: Contact, strength: float, gain: float) -> Contact
 
 
 def even_growth(c: Contact, strength: float) -> Contact:
+    """eta (1 + 0.2 strength s), s from 0 to 1 over the programme."""
     return replace(c, viscosity=c.viscosity * np.clip(1 + 0.2 * strength * c.rig.sequence, 0.05, None)[:, None])
 
 
 def slowing_growth(c: Contact, strength: float) -> Contact:
+    """eta exp(0.2 strength s^0.5)."""
     return replace(c, viscosity=c.viscosity * np.exp(0.2 * strength * np.sqrt(c.rig.sequence))[:, None])
 
 

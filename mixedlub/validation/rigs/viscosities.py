@@ -100,6 +100,7 @@ def doolittle(s: Sample, strength: float, occupied: float) -> Sample:
 
 def _drifts(time: np.ndarray) -> tuple[Form, ...]:
     def even(s: Sample, strength: float) -> Sample:
+        """eta (1 + 0.2 strength s), s from 0 to 1 over the programme."""
         return replace(s, resting=s.resting * np.clip(1 + 0.2 * strength * time, 0.05, None))
 
     def gathering(s: Sample, strength: float) -> Sample:
@@ -136,10 +137,12 @@ def slotte(s: Sample, strength: float, above: float) -> Sample:
 
 
 def andrade(s: Sample, strength: float) -> Sample:
+    """eta = A exp(B/T) through both known viscosities."""
     return _cooled(s, strength, cooling.andrade)
 
 
 def reynolds(s: Sample, strength: float) -> Sample:
+    """eta = A exp(-b T) through both known viscosities."""
     return _cooled(s, strength, cooling.reynolds)
 
 
