@@ -6,6 +6,10 @@ from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import LogNormal, Normal, Uniform
 
 QUARTER = 0.5 * np.pi
+TYPICAL_FORCE = 3000.0
+"""Tooth force (N) at which the amplitude is stated."""
+LEAST_LOAD = 0.1
+"""Load over the typical one below which the relative added force stays as it is."""
 LEAST_LOAD_FACTOR = 0.1
 """Smallest share of the static force that is computed where vibration unloads the teeth."""
 
@@ -18,7 +22,7 @@ LEAST_LOAD_FACTOR = 0.1
             "amplitude",
             "-",
             Normal(0.0, 0.05),
-            "relative added force at resonance, times twice the damping ratio",
+            "relative added force at resonance and 3 kN, times twice the damping ratio",
             null=0.0,
             symbol="a",
         ),
@@ -38,13 +42,22 @@ LEAST_LOAD_FACTOR = 0.1
             "response to the second mesh harmonic, at half the speed, relative to the first",
             symbol="s",
         ),
+        Parameter(
+            "fade",
+            "-",
+            Uniform(0.0, 1.0),
+            "exponent of load with which the relative added force falls: 0 deflection of the teeth, 1 their errors",
+            symbol="q",
+            nominal=0.0,
+        ),
     ),
-    equation=r"F_t \leftarrow F_t\max\{1 + a\,[R(r) + s\,R(2r)],\ 0.1\},\quad "
+    equation=r"F_t \leftarrow F_t\max\left\{1 + ax^{-q}\,[R(r) + s\,R(2r)],\ 0.1\right\},\quad "
+    r"x = \max\left(\frac{F_t}{\text{3 kN}},\ 0.1\right),\quad "
     r"R(x) = x\,\frac{(1-x^2)\sin\phi + 2\zeta x\cos\phi}{(1-x^2)^2 + (2\zeta x)^2},\quad "
     r"r = \frac{z_1\omega_1}{2\pi f_n}",
-    special_cases={"one harmonic": {"second": 0.0}},
+    special_cases={"one harmonic": {"second": 0.0, "fade": 0.0}},
     source="one degree of freedom driven by the transmission error, steady state; as the dynamic factor of "
-    "ISO 6336-1, method B",
+    "ISO 6336-1, of which pitch errors cause a part that is the same force at any load",
     fingerprint={"load": "-", "speed": "+"},
     separated_by="a fine speed sweep: it is narrow, follows tooth frequency and inertia and not the oil; an "
     "accelerometer or the transmission error shows it",
@@ -60,6 +73,7 @@ def dynamic_load(
     damping: float,
     phase: float,
     second: float,
+    fade: float,
 ) -> np.ndarray:
     """Near mesh resonance the tooth force differs from the static force where the teeth slide most.
 
@@ -69,10 +83,11 @@ def dynamic_load(
     ratio of gear pairs is 0.05 to 0.10. Far below resonance the rise is linear in speed, as in the standard, and
     quadratic at phase 0: between the responses to a varying stiffness and to a transmission error. By ISO 6336-1 steel
     discs of 70 and 110 mm with a mesh stiffness of 20 N/(mm um) resonate at 6.4 kHz, two standard deviations above the
-    prior's median; shafts and attached inertia lower this frequency.
+    prior's median; shafts and attached inertia lower this frequency. The reference force of 3 kN makes the form belong
+    to N.
 
     >>> at_resonance = 2 * np.pi * 850.0 / 17   # 3000 rpm at 17 teeth
-    >>> pair = dict(amplitude=0.05, resonance=850.0, damping=0.1, second=0.0)
+    >>> pair = dict(amplitude=0.05, resonance=850.0, damping=0.1, second=0.0, fade=0.0)
     >>> round(float(dynamic_load(1.0, at_resonance, 17.0, **pair, phase=0.0)), 3)
     1.25
     >>> dynamic_load(1.0, at_resonance * np.array([0.9, 1.0, 1.1]), 17.0, **pair, phase=np.pi / 2).round(3).tolist()
@@ -80,7 +95,8 @@ def dynamic_load(
     """
     ratio = pinion_teeth * pinion_speed / (2.0 * np.pi * resonance)
     response = _response(ratio, damping, phase) + second * _response(2.0 * ratio, damping, phase)
-    return transmitted_force * np.maximum(1.0 + amplitude * response, LEAST_LOAD_FACTOR)
+    relative = amplitude * np.maximum(transmitted_force / TYPICAL_FORCE, LEAST_LOAD) ** -fade
+    return transmitted_force * np.maximum(1.0 + relative * response, LEAST_LOAD_FACTOR)
 
 
 def _response(ratio: np.ndarray, damping: float, phase: float) -> np.ndarray:

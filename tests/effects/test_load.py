@@ -48,7 +48,14 @@ def test_dynamic_load_is_the_steady_vibration_where_the_teeth_slide(ratio: float
     moment = (np.pi / 2 - phase + 2.0 * np.pi * 30) / ratio
     steady = integrate.solve_ivp(motion, (0.0, moment), [0.0, 0.0], rtol=1e-9, atol=1e-11).y[0, -1]
     pair = {"amplitude": 0.02, "resonance": 1.0 / (2.0 * np.pi), "damping": damping, "phase": phase, "second": 0.0}
-    assert dynamic_load(1.0, ratio, 1.0, **pair) == pytest.approx(1.0 + 0.02 * ratio * steady, abs=1e-6)
+    assert dynamic_load(1.0, ratio, 1.0, **pair, fade=0.0) == pytest.approx(1.0 + 0.02 * ratio * steady, abs=1e-6)
+
+
+def test_force_added_by_errors_of_the_teeth_is_the_same_at_any_load() -> None:
+    pair = {"amplitude": 0.02, "resonance": 800.0, "damping": 0.1, "phase": 0.3, "second": 0.2}
+    load = np.array([600.0, 3000.0, 9000.0])
+    added = dynamic_load(load, 200.0, 20.0, **pair, fade=1.0) - load
+    np.testing.assert_allclose(added, added[1])
 
 
 @pytest.mark.parametrize("relief", [5e-6, 30e-6])

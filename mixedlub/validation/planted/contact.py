@@ -160,14 +160,15 @@ def yielding_spheres(c: Contact, strength: float) -> Contact:
 def yielding_with_hardness(c: Contact, strength: float) -> Contact:
     """Jackson and Green: area over pi R w of (x/1.9)^B past x = w/w_c = 1.9, B = 0.14 e^(23 Y/E*), x 110 at most.
 
-    w_c as Kogut and Etsion's; the yield strength Y is H/2.8, and H = 7 GPa over the strength.
+    w_c as Kogut and Etsion's; the yield strength Y is H/2.8, and H = 7 GPa over the strength. B is 1 at most.
     """
     if strength <= 0:
         return c
-    steepness = 0.14 * np.exp(23 * HARDNESS / strength / 2.8 / (0.5 * c.rig.solid.reduced))
+    yielding = HARDNESS / strength / 2.8 / (0.5 * c.rig.solid.reduced)
+    steepness = 0.14 * np.exp(min(23 * yielding, 2.0))
 
     def grown(over: np.ndarray) -> np.ndarray:
-        return np.maximum(np.minimum(over, 110.0) / 1.9, 1.0) ** min(steepness, 1.0) - 1
+        return np.maximum(np.minimum(over, 110.0) / 1.9, 1.0) ** steepness - 1
 
     return _yielded(c, FIRST_YIELD / strength / c.rig.solid.reduced, grown)
 
