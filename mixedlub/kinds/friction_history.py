@@ -29,6 +29,9 @@ FRICTION_SPREAD = 1.0
 USUAL_PRESSURE = 1e9
 """Judgement. Typical Hertz pressure (Pa) of a ball on a disc in traction machines."""
 
+UNKNOWN_SPEED = 1.0
+"""Definition. Sliding speed (m/s) where none is recorded: any constant, since only its ratios show."""
+
 
 def constant_friction(boundary_friction: np.ndarray) -> np.ndarray:
     """Friction of unchanging surfaces (-): a constant coefficient.
@@ -57,6 +60,7 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
         )
         report(finding("film_not_computed", text, table.source))
     return {
+        "sliding_speed": UNKNOWN_SPEED,
         **_conditions(table, recorded),
         **bookkeeping_inputs(system, table),
         **inverse_load(system, table, recorded),
