@@ -43,7 +43,7 @@ def flow(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.ndarray
     hertz = contacts.pressure[:, None]
     density, squeezed, _ = oil.density_ratio(state.pressure * hertz, across.mean(state.temperature))
     squeezed = squeezed * hertz
-    column = _columns(oil, contacts, grid, state, gap)
+    column = cell_columns(oil, contacts, grid, state, gap)
     if oil.newtonian and state.temperature.shape[-1] == 1:
         moved, stress = newtonian(column), state.stress
     else:
@@ -65,7 +65,7 @@ def flow(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.ndarray
     )
 
 
-def _columns(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.ndarray) -> Column:
+def cell_columns(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.ndarray) -> Column:
     """Columns of film at both sides of each cell, under the pressure gradient of the cell."""
     gradient = np.diff(state.pressure, axis=1) / grid.steps * (contacts.pressure / contacts.half_width)[:, None]
     return Column(

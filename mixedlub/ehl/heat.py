@@ -11,7 +11,7 @@ from mixedlub.ehl.columns import Column, Sheared, sheared
 from mixedlub.ehl.grid import Grid
 from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.linear import times
-from mixedlub.ehl.march import Energy, march
+from mixedlub.ehl.march import Energy, leaving, march
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.ehl.state import State
 
@@ -62,7 +62,8 @@ def heat_step(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.nd
     density = oil.density * oil.density_ratio(column.pressure[..., None], column.temperature)[0]
     capacity = oil.heat_capacity * density * velocity
     made, by_temperature = _shear_heat(shear, full)
-    compression = oil.expansion * velocity * (column.gradient * full)[..., None]
+    expansion = oil.expansion(column.pressure[..., None], column.temperature)
+    compression = expansion * velocity * (column.gradient * full)[..., None]
     place = np.arange(COUNT)
     held = damping[:, None, None] * np.max(np.maximum(by_temperature[..., place, place], 0.0), axis=2, keepdims=True)
     matrix = -by_temperature - oil.conductivity / thickness[..., None] ** 2 * SECOND
@@ -119,7 +120,8 @@ def _crossing(flow: np.ndarray, steps: np.ndarray, thickness: np.ndarray, conduc
     What a film without pressure loses or gains in flow, since it is broken, is spread over its thickness.
     """
     growth = np.pad(np.diff(flow, axis=1) / steps[..., None], ((0, 0), (1, 1), (0, 0)))
-    crossing = -np.where(flow < 0.0, growth[:, 1:], growth[:, :-1]) @ RUNNING.T
+    back = leaving(flow)
+    crossing = -(back * growth[:, 1:] + (1.0 - back) * growth[:, :-1]) @ RUNNING.T
     crossing -= crossing[..., -1:] * (NODES + 0.5)
     spread = np.maximum(RESOLVED * np.abs(crossing) / thickness - conductivity / thickness**2, 0.0)
     return (crossing / thickness)[..., None] * DERIVATIVE - DERIVATIVE @ (spread[..., None] * DERIVATIVE)

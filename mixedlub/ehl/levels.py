@@ -8,6 +8,7 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from mixedlub.ehl.across import COUNT
+from mixedlub.ehl.again import again
 from mixedlub.ehl.batch import Batch
 from mixedlub.ehl.film import LOAD
 from mixedlub.ehl.grid import Grid, flooded_inlet, grid
@@ -62,6 +63,12 @@ def solve_levels(oil: Oil, contacts: Contacts, *, thermal: bool, nodes: tuple[in
             usable = ~np.isnan(levels[-1].state.approach)
             guess.put(usable, _refined(levels[-1].take(usable), mesh.take(usable)))
         state, converged = converge(oil, here, mesh, guess, thermal=thermal, far=~found)
+        if levels and not np.all(converged):
+            left = np.flatnonzero(~converged)
+            parts = here.take(left), mesh.take(left), guess.take(left)
+            other, solved = again(oil, *parts, thermal=thermal, far=~found[left])
+            state.put(left, other)
+            converged[left] = solved
         kept = converged if levels else np.ones_like(converged)
         stopped_at[index[~kept]] = count
         index, found = index[kept], converged[kept]

@@ -16,6 +16,10 @@ ENDS = (0, -1)
 """Nodes on the walls."""
 
 
+SLOW = 0.05
+"""Flow, over the largest across the film, below which a layer is partly one that flows back."""
+
+
 @dataclass(frozen=True)
 class Energy:
     """Linear energy equation of each column but for what is carried along: matrix times temperature is what is known.
@@ -61,8 +65,18 @@ def march(oil: Oil, contacts: Contacts, grid: Grid, energy: Energy) -> tuple[np.
         right[:, ENDS] = bulk + np.matmul(response[:, :, node, None, 1:node], walls[:, :, 1:node, None])[..., 0, 0]
         temperature[:, node] = times(inverse[:, node], right)
         walls[:, :, node] = times(outward[:, node], temperature[:, node])
-    temperature[:, 0] = np.where(energy.capacity[:, 0] < 0.0, temperature[:, 1], temperature[:, 0])
+    temperature[:, 0] += leaving(energy.capacity[:, 0]) * (temperature[:, 1] - temperature[:, 0])
     return temperature, walls
+
+
+def leaving(flow: np.ndarray) -> np.ndarray:
+    """Share of each layer that flows back: zero or one but for slow layers, where the sign of a flow may still change.
+
+    >>> leaving(np.array([2.0, 0.0, -1.0])).round(3)
+    array([0.001, 0.5  , 0.998])
+    """
+    slow = SLOW * np.max(np.abs(flow), axis=-1, keepdims=True)
+    return 0.5 * (1.0 - flow / np.hypot(flow, slow))
 
 
 def _eliminated(matrix: np.ndarray, known: np.ndarray, forward: np.ndarray, backward: np.ndarray) -> np.ndarray:

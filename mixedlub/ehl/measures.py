@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.ehl.across import COUNT, WEIGHTS
-from mixedlub.ehl.columns import sheared
+from mixedlub.ehl.across import COUNT
+from mixedlub.ehl.columns import driven, sheared
 from mixedlub.ehl.film import LOAD
-from mixedlub.ehl.flow import flow
+from mixedlub.ehl.flow import cell_columns, flow
 from mixedlub.ehl.heat import Heat, full_film, heat_step, node_columns
 from mixedlub.ehl.levels import Level
 from mixedlub.ehl.line_contacts import Contacts
@@ -72,14 +72,12 @@ def measures(oil: Oil, contacts: Contacts, level: Level, *, thermal: bool) -> di
     weights = mesh.weights * contacts.half_width[:, None] * full
     if thermal:
         heat = heat_step(oil, contacts, mesh, state, gap, np.zeros(len(gap)))
-        shear, made = heat.sheared, heat.shear_heat
+        shear = heat.sheared
     else:
         column = node_columns(oil, contacts, mesh, state, gap)
         shear = sheared(column, np.zeros_like(column.pressure))
-        made = column.gap * ((shear.stress * shear.rate) @ WEIGHTS)
     stress = shear.mean_stress * full
     friction = np.sum(weights * stress, axis=1)
-    power = np.sum(weights * made, axis=1)
     mass = flow(oil, contacts, mesh, state, gap).mass
     layers = state.temperature if thermal else np.repeat(state.temperature, COUNT, axis=2)
     first, middle, second = layers[..., 0], layers[..., MIDDLE], layers[..., -1]
@@ -90,7 +88,7 @@ def measures(oil: Oil, contacts: Contacts, level: Level, *, thermal: bool) -> di
         "largest_pressure": np.max(pressure, axis=1),
         "friction_coefficient": friction / contacts.line_load,
         "sliding_power": friction * contacts.sliding,
-        "rolling_power": power - friction * contacts.sliding,
+        "rolling_power": _rolling_power(oil, contacts, level, gap, full),
         "load_imbalance": np.sum(mesh.weights * state.pressure, axis=1) / LOAD - 1.0,
         "mass_imbalance": _spread(mass, full),
         "stress_imbalance": np.max(shear.miss * full, axis=1),
@@ -108,6 +106,14 @@ def measures(oil: Oil, contacts: Contacts, level: Level, *, thermal: bool) -> di
     names = ("heat_to_first_wall", "heat_to_second_wall", "heat_carried", "heat_imbalance")
     values = _heat_balance(contacts, level, heat, full) if thermal else np.full((4, len(gap)), np.nan)
     return found | dict(zip(names, values, strict=True))
+
+
+def _rolling_power(oil: Oil, contacts: Contacts, level: Level, gap: np.ndarray, full: np.ndarray) -> np.ndarray:
+    """Pressure gradient times the flow that it drives, cell by cell: what shear makes of heat beyond that of sliding."""
+    cells = cell_columns(oil, contacts, level.mesh, level.state, gap)
+    moved = driven(cells, sheared(cells, level.state.stress)).flow
+    rise = np.diff(level.state.pressure, axis=1) * contacts.pressure[:, None]
+    return np.sum(full[:, 1:] * rise * np.mean(moved, axis=1), axis=1)
 
 
 def _spread(mass: np.ndarray, full: np.ndarray) -> np.ndarray:

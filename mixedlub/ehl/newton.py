@@ -9,13 +9,11 @@ import numpy as np
 from mixedlub.ehl.batch import Batch
 from mixedlub.ehl.film import film_step
 from mixedlub.ehl.grid import Grid
-from mixedlub.ehl.heat import heat_step
+from mixedlub.ehl.heat import full_film, heat_step
 from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.ehl.state import State
 
-STEPS = 80
-"""Most steps on a grid; most contacts need five to ten."""
 PRESSURE_TOLERANCE, HOT_PRESSURE_TOLERANCE = 1e-8, 1e-6
 """Change of pressure that ends the steps (Hertz pressures), without and with temperature."""
 TEMPERATURE_TOLERANCE = 0.01
@@ -26,8 +24,21 @@ LARGEST_HEATING = 30.0
 """Largest change of a temperature in one step (K)."""
 DAMPED_ABOVE = 12.0
 """Change of temperature above which a step is damped (K)."""
-GROWN, LESS, LEAST, MORE = 0.9, 0.5, 0.25, 1.4
-"""A change larger than this share of the one before it makes the share of a step that is taken less, else more."""
+GROWN, LESS = 0.9, 0.5
+"""A change larger than this share of the one before it makes the share of a step that is taken less."""
+
+
+@dataclass(frozen=True)
+class Pace:
+    """Most steps; the least share of a step of the temperatures that is taken, and how fast that share recovers."""
+
+    steps: int
+    least: float
+    more: float
+
+
+QUICK, PATIENT, SHORT = Pace(80, 0.25, 1.4), Pace(300, 0.1, 1.1), Pace(30, 0.25, 1.4)
+"""Of most contacts, which need five to ten steps; of those that these do not solve; of one stage of many."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +55,7 @@ class _Run(Batch):
 
 
 def converge(
-    oil: Oil, contacts: Contacts, mesh: Grid, start: State, *, thermal: bool, far: np.ndarray
+    oil: Oil, contacts: Contacts, mesh: Grid, start: State, *, thermal: bool, far: np.ndarray, pace: Pace = QUICK
 ) -> tuple[State, np.ndarray]:
     """The state of each contact after its last step, and whether it converged, from a start that is ``far`` or near."""
     cases = len(contacts.radius)
@@ -52,12 +63,12 @@ def converge(
     unknown = np.full(cases, np.inf)
     run, active = _Run(contacts, mesh, start, unknown, unknown, np.ones(cases), far), np.arange(cases)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        for _ in range(STEPS):
+        for _ in range(pace.steps):
             if not len(active):
                 break
             new, change = film_step(oil, run.contacts, run.mesh, run.state)
             run = replace(run, state=new, pressure_change=change)
-            run = _warmed(oil, run) if thermal else run
+            run = _warmed(oil, run, pace) if thermal else run
             failed = ~np.isfinite(run.state.approach + np.sum(run.state.temperature, axis=(1, 2)))
             tolerance = HOT_PRESSURE_TOLERANCE if thermal else PRESSURE_TOLERANCE
             warm = (run.temperature_change < TEMPERATURE_TOLERANCE) | (not thermal)
@@ -71,7 +82,7 @@ def converge(
     return state, converged
 
 
-def _warmed(oil: Oil, run: _Run) -> _Run:
+def _warmed(oil: Oil, run: _Run, pace: Pace) -> _Run:
     """After one step of the temperatures, where the film is near its own solution.
 
     A large step is taken damped: at once where the last one was large and the start is far, else after a look.
@@ -82,11 +93,12 @@ def _warmed(oil: Oil, run: _Run) -> _Run:
     again = ~damped & ~(np.max(np.abs(wanted), axis=(1, 2)) < DAMPED_ABOVE)
     if np.any(again):
         wanted[again] = _wanted(oil, run.take(again), gap[again], again[again])
-    change = np.max(np.abs(wanted), axis=(1, 2))
+    counts = full_film(run.state.pressure)[..., None]
+    change = np.max(np.abs(wanted) * counts, axis=(1, 2))
     ready = run.pressure_change < WARM_START
     change = np.where(ready, change, np.inf)
     grown = ~damped & ~again & (change > GROWN * run.temperature_change)
-    share = np.where(grown, np.maximum(LESS * run.share, LEAST), np.minimum(MORE * run.share, 1.0))
+    share = np.where(grown, np.maximum(LESS * run.share, pace.least), np.minimum(pace.more * run.share, 1.0))
     step = np.clip(share[:, None, None] * wanted, -LARGEST_HEATING, LARGEST_HEATING) * ready[:, None, None]
     state = replace(run.state, temperature=run.state.temperature + step)
     return replace(run, state=state, temperature_change=change, share=share)

@@ -113,8 +113,9 @@ def _of_oil(oil: Oil) -> Iterator[np.ndarray]:
     with np.errstate(all="ignore"):
         yield from oil.log_viscosity(pressure, temperature)
         yield from oil.density_ratio(pressure, temperature)
+        yield oil.expansion(pressure, temperature)
         for stress in STRESSES:
             yield from oil.shear(np.full_like(pressure, stress), pressure)
         yield from (oil.stress_scale(pressure), oil.stress_limit(pressure))
-    constants = (oil.density, oil.expansion, oil.conductivity, oil.heat_capacity, float(oil.newtonian))
+    constants = (oil.density, oil.conductivity, oil.heat_capacity, float(oil.newtonian))
     yield np.array(constants)

@@ -45,7 +45,7 @@ def roelands_oil(
         stress_limit=lambda pressure: np.full_like(pressure, np.inf),
         newtonian=law is shear.newton,
         density=850.0,
-        expansion=expansion,
+        expansion=lambda p, t: np.full(np.broadcast_shapes(np.shape(p), np.shape(t)), expansion),
         conductivity=conductivity,
         heat_capacity=2000.0,
     )

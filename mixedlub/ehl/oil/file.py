@@ -13,7 +13,7 @@ from pydantic import model_validator
 
 from mixedlub.ehl.oil import density, shear, viscosity
 from mixedlub.ehl.oil.lubricant import from_lubricant
-from mixedlub.ehl.oil.oil import Oil, constant
+from mixedlub.ehl.oil.oil import Oil, constant, expansion_of
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.build import lubricant
 from mixedlub.schema.findings import collected, warn_of
@@ -223,7 +223,7 @@ def build(file: OilFile) -> Oil:
         stress_limit=limit,
         newtonian=file.shear.law == "newton",
         density=own.density_kg_m3,
-        expansion=own.expansion_per_K,
+        expansion=expansion_of(_density(own)),
         conductivity=file.thermal.thermal_conductivity_W_mK,
         heat_capacity=file.thermal.specific_heat_J_kgK,
         **limits,

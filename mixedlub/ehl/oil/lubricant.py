@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 
 from mixedlub.ehl.oil import density, shear
-from mixedlub.ehl.oil.oil import Oil, Slopes, constant
+from mixedlub.ehl.oil.oil import Oil, Slopes, constant, expansion_of
 from mixedlub.laws import oil
 from mixedlub.laws.oil import ROELANDS_LOG, ROELANDS_PRESSURE
 from mixedlub.rig.lubricant import Lubricant
@@ -15,18 +15,19 @@ from mixedlub.rig.lubricant import Lubricant
 
 def from_lubricant(of: Lubricant) -> Oil:
     """A Ree-Eyring oil; its viscosity is by the modulus equation where it has the constants, else by Roelands."""
+    squeezed = partial(
+        density.dowson_higginson, known_temperature=oil.ZERO_CELSIUS + 15.0, expansion=of.density_change
+    )
     return Oil(
         name=of.name,
         log_viscosity=partial(roelands if of.pressure_modulus is None else modulus, of=of),
-        density_ratio=partial(
-            density.dowson_higginson, known_temperature=oil.ZERO_CELSIUS + 15.0, expansion=of.density_change
-        ),
+        density_ratio=squeezed,
         shear=partial(shear.ree_eyring, eyring_stress=of.eyring_stress),
         stress_scale=constant(of.eyring_stress),
         stress_limit=constant(np.inf),
         newtonian=False,
         density=of.density_15,
-        expansion=of.density_change,
+        expansion=expansion_of(squeezed),
         conductivity=of.conductivity,
         heat_capacity=of.heat_capacity,
     )

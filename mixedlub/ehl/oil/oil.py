@@ -16,11 +16,21 @@ def constant(value: float) -> Callable[[np.ndarray], np.ndarray]:
     return lambda pressure: np.full_like(pressure, value)
 
 
+def expansion_of(density_ratio: Callable[[np.ndarray, np.ndarray], Slopes]) -> Callable[..., np.ndarray]:
+    """Thermal expansion (1/K) by pressure and temperature of a law of density."""
+
+    def law(pressure: np.ndarray, temperature: np.ndarray) -> np.ndarray:
+        density, _, by_temperature = density_ratio(pressure, temperature)
+        return -by_temperature / density
+
+    return law
+
+
 @dataclass(frozen=True)
 class Oil:
     """Laws and constants of one oil.
 
-    ``log_viscosity`` and ``density_ratio`` take pressure and temperature; ``shear`` takes stress and pressure and gives
+    ``log_viscosity``, ``density_ratio`` and ``expansion`` (1/K) take pressure and temperature; ``shear`` takes stress and pressure and gives
     viscosity times shear rate; ``stress_scale`` and ``stress_limit`` by pressure are where it leaves Newton's law, and
     what it never reaches (Pa). Densities are relative to ``density``.
     """
@@ -33,7 +43,7 @@ class Oil:
     newtonian: bool
     stress_limit: Callable[[np.ndarray], np.ndarray]
     density: float
-    expansion: float
+    expansion: Callable[[np.ndarray, np.ndarray], np.ndarray]
     conductivity: float
     heat_capacity: float
     temperatures: tuple[float, float] = (0.0, np.inf)

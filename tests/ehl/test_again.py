@@ -1,0 +1,43 @@
+"""Contacts that Newton's method does not solve at once: little sliding of thick oils, and oil that nearly stands still."""
+
+import numpy as np
+import pytest
+
+import mixedlub as ml
+from mixedlub.ehl import levels
+
+pytestmark = pytest.mark.filterwarnings("ignore::mixedlub.schema.findings.FindingWarning")
+STICKY = {"radius": 12.64e-3, "line_load": 80.56e3, "speed": 0.4473, "oil_temperature": 313.8}
+
+
+def solved(oil, **given):
+    return ml.ehl.solve(ml.ehl.read_oil(oil), **given)
+
+
+@pytest.fixture(scope="module")
+def sticky():
+    """Little sliding both ways, none, and ten times as much."""
+    ratios = np.array([0.03776, -0.03776, 0.0, 0.3776])
+    return solved("pao40", **STICKY, sliding_speed=ratios * STICKY["speed"], thermal=False)
+
+
+def test_little_sliding_is_reached_from_larger(sticky):
+    assert set(sticky["status"].values) == {"converged"}
+    assert np.all(sticky["mass_imbalance"] < 1e-6)
+    film, friction = sticky["central_film"].values, sticky["friction_coefficient"].values
+    assert film == pytest.approx(film[-1], rel=0.05)
+    assert friction[0] == pytest.approx(-friction[1], rel=1e-6)
+    assert abs(friction[2]) < 1e-9
+    assert 0.0 < friction[0] < friction[3]
+
+
+def test_newtons_method_alone_does_not_reach_it(monkeypatch):
+    monkeypatch.setattr(levels, "again", lambda *given, **_: (given[3], np.zeros(1, dtype=bool)))
+    found = solved("pao40", **STICKY, sliding_speed=0.03776 * STICKY["speed"], thermal=False)
+    assert found["status"].values[0] == "no solution"
+
+
+def test_a_layer_that_nearly_stands_in_the_inlet_does_not_keep_the_steps_from_ending(monkeypatch):
+    monkeypatch.setattr(levels, "again", lambda *given, **_: (given[3], np.zeros(1, dtype=bool)))
+    given = {"radius": 14.67e-3, "line_load": 436.1e3, "speed": 11.22, "sliding_speed": 9.035}
+    assert solved("75w90", **given, oil_temperature=331.2)["status"].values[0] == "converged"
