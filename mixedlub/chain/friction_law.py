@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -29,12 +29,22 @@ Limits = tuple[str | None, str, float]
 """Coefficients that are the ends of a range, the lower one zero where none is, and their factor to SI."""
 
 
+class OfOil(NamedTuple):
+    """A property that an oil must have at a temperature (K): its name, factor of its coefficient to SI, tolerance."""
+
+    quantity: str
+    temperature: float
+    factor: float
+    tolerance: float
+
+
 @dataclass(frozen=True, repr=False)
 class FrictionLaw(Documented):
     """A friction law: the function, where it is evaluated, and what is known of its validity.
 
     ``valid`` is the range of its source in SI, by quantity of the glossary; ``limits`` names the coefficients that are
-    the ends of such a range, and their factor to SI; ``diverges`` names quantities at whose zero the law has no finite
+    the ends of such a range, and their factor to SI; ``of_oil`` names those that are properties of the only oil that
+    the law is for, zero where unknown; ``diverges`` names quantities at whose zero the law has no finite
     value; ``sources`` counts independent sources of the constants, 0 where none was found.
     """
 
@@ -48,6 +58,7 @@ class FrictionLaw(Documented):
     diverges: tuple[str, ...] = ()
     coefficients: tuple[Coefficient, ...] = ()
     limits: Mapping[str, Limits] = field(default_factory=dict)
+    of_oil: Mapping[str, OfOil] = field(default_factory=dict)
 
     def bounded(self, given: Mapping[str, float]) -> FrictionLaw:
         """The law with the range that its coefficients give it."""
@@ -155,6 +166,7 @@ def friction_law(
     diverges: tuple[str, ...] = (),
     coefficients: tuple[Coefficient, ...] = (),
     limits: Mapping[str, Limits] | None = None,
+    of_oil: Mapping[str, OfOil] | None = None,
 ) -> Callable[[Function], Function]:
     """Register the function below as a friction law under its own name.
 
@@ -163,7 +175,7 @@ def friction_law(
     """
 
     def register(law: Function) -> Function:
-        about = (title, place, sources, status, valid or {}, diverges, coefficients, limits or {})
+        about = (title, place, sources, status, valid or {}, diverges, coefficients, limits or {}, of_oil or {})
         found = FrictionLaw(law.__name__, law, *about)
         _check(found)
         REGISTRY[found.name] = found

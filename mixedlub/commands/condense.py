@@ -35,7 +35,7 @@ def command(
     interrupted run resumes when it is started again.
     """
     from mixedlub.condensed.law_file import against_published, law_file
-    from mixedlub.condensed.points import draw, solved_table
+    from mixedlub.condensed.points import draw, properties_of, solved_table
     from mixedlub.condensed.regression import regression
     from mixedlub.ehl.solve import Way
     from mixedlub.law_errors.solutions import oils
@@ -51,7 +51,7 @@ def command(
     folder = output_folder(out, NAME, Path(oil).stem)
     with progress_bar("solving") as bar:
         table = solved_table(of, found, Way(folder, scheduler, resumed(bar)))
-    law = regression(table)
+    law = regression(table, properties_of(of))
     against = against_published(law)
     file = f"{Path(oil).stem}_friction.toml"
     with writing(folder) as aside:

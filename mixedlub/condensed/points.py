@@ -10,7 +10,7 @@ import pandas as pd
 from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.ehl.solve import Way, contacts
-from mixedlub.friction.condensed import INPUTS
+from mixedlub.friction.condensed import INPUTS, OIL
 from mixedlub.law_errors.rigs import STEEL, inside
 from mixedlub.laws.oil import ZERO_CELSIUS
 from profiles.errors import InputError
@@ -67,6 +67,16 @@ def solved_table(oil: Oil, found: Contacts, way: Way) -> pd.DataFrame:
     table["friction_error_percent"] = 100.0 * data["friction_coefficient_error"].to_numpy()
     table["status"] = data["status"].to_numpy()
     return table
+
+
+def properties_of(oil: Oil) -> dict[str, float]:
+    """Coefficients by which the oil of a study is compared with this one."""
+    found = {}
+    for name, one in OIL.items():
+        viscosity, coefficient = oil.at_ambient(np.array(one.temperature))
+        own = {"viscosity": viscosity, "pressure_viscosity": coefficient, "eyring_stress": oil.eyring_stress}
+        found[name] = float(own[one.quantity]) / one.factor
+    return found
 
 
 def inputs_of(oil: Oil, found: Contacts) -> dict[str, np.ndarray]:

@@ -65,8 +65,8 @@ def fitted(values: Mapping[str, np.ndarray], coefficients: Mapping[str, float]) 
     return np.asarray(condensed(*(values[one.name] * one.factor for one in INPUTS), **coefficients))
 
 
-def regression(solutions: pd.DataFrame) -> Regression:
-    """The law fitted to the logarithm of friction by least squares."""
+def regression(solutions: pd.DataFrame, of_oil: Mapping[str, float]) -> Regression:
+    """The law fitted to the logarithm of friction by least squares; ``of_oil`` are its coefficients of the oil."""
     table = solutions[solutions["status"] == CONVERGED].reset_index(drop=True)
     if len(table) < LEAST:
         raise RunError(f"{len(table)} contacts have a solution; the regression needs {LEAST}: ask for more solutions")
@@ -76,7 +76,7 @@ def regression(solutions: pd.DataFrame) -> Regression:
     out = np.arange(len(table)) % EVERY == EVERY - 1
     found, errors = _least_squares(design[~out].to_numpy(), wanted[~out])
     names = [coefficient_name(term) for term in TERMS]
-    coefficients = dict(zip(names, map(float, found), strict=True)) | limits_of(values)
+    coefficients = dict(zip(names, map(float, found), strict=True)) | limits_of(values) | dict(of_oil)
     table["fitted"] = fitted(values, coefficients)
     table["residual_of_log"] = wanted - np.log(table["fitted"].to_numpy())
     table["left_out"] = out

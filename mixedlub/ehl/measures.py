@@ -109,7 +109,7 @@ def measures(oil: Oil, contacts: Contacts, level: Level, *, thermal: bool) -> di
 
 
 def _rolling_power(oil: Oil, contacts: Contacts, level: Level, gap: np.ndarray, full: np.ndarray) -> np.ndarray:
-    """Pressure gradient times the flow that it drives, cell by cell: what shear makes of heat beyond that of sliding."""
+    """Pressure gradient times the flow that it drives, by cell: heat of shear beyond that of sliding."""
     cells = cell_columns(oil, contacts, level.mesh, level.state, gap)
     moved = driven(cells, sheared(cells, level.state.stress)).flow
     rise = np.diff(level.state.pressure, axis=1) * contacts.pressure[:, None]

@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mixedlub.chain.friction_law import Coefficient, friction_law
+from mixedlub.chain.friction_law import Coefficient, OfOil, friction_law
+from mixedlub.laws.oil import ZERO_CELSIUS
 
 
 class Input(NamedTuple):
@@ -75,7 +76,8 @@ def _law(*quantities: np.ndarray, **coefficients: float) -> np.ndarray:
     of the logarithms of pressure p (1 GPa), slide-to-roll ratio s (0.1), speed u (5 m/s), viscosity v (10 mPa s) and
     reduced radius r (10 mm), each over the value in brackets. The viscosity stands for the temperature of this oil.
     Quantities beyond the range of the solutions are held at its ends, and flagged; only below the least sliding,
-    as at a pitch point, friction falls in proportion to sliding. No asperities.
+    as at a pitch point, friction falls in proportion to sliding. No asperities. The oil of a study is compared with
+    that of the solutions: viscosity and Eyring stress to 10 %, the pressure-viscosity coefficient to 20 %.
 
     Source: H. Xu, PhD thesis, Ohio State University, 2005, chapter 3, for the regression of a logarithm over
     transformed terms; these terms are others, which fit better.
@@ -95,6 +97,20 @@ def _law(*quantities: np.ndarray, **coefficients: float) -> np.ndarray:
     return np.asarray(friction * np.minimum(quantities[1] / coefficients[INPUTS[1].ends[0]], 1.0))
 
 
+CELSIUS = (40, 75, 110)
+"""Temperatures at which the oil of a study is compared with that of the solutions."""
+OIL = {
+    **{f"oil_viscosity_{t}C": OfOil("viscosity", t + ZERO_CELSIUS, 1e-3, 0.1) for t in CELSIUS},
+    **{f"oil_pressure_viscosity_{t}C": OfOil("pressure_viscosity", t + ZERO_CELSIUS, 1e-9, 0.2) for t in CELSIUS},
+    "oil_eyring_stress": OfOil("eyring_stress", CELSIUS[0] + ZERO_CELSIUS, 1e6, 0.1),
+}
+"""What the oil of a study must have, by coefficient. Tolerances: viscometers and rheometers differ by so much."""
+_OIL_UNITS = {"viscosity": "mPa s", "pressure_viscosity": "1/GPa", "eyring_stress": "MPa"}
+_OIL_WORDS = {
+    **{f"oil_viscosity_{t}C": f"viscosity of the oil of the solutions at {t} °C" for t in CELSIUS},
+    **{f"oil_pressure_viscosity_{t}C": f"its pressure-viscosity coefficient at {t} °C" for t in CELSIUS},
+    "oil_eyring_stress": "its Eyring stress; zero where another law of shear is its own",
+}
 COEFFICIENTS = (
     *(Coefficient(coefficient_name(t), "-", f"of the term {' '.join(t) or '1'}") for t in TERMS),
     *(
@@ -102,6 +118,7 @@ COEFFICIENTS = (
         for one in INPUTS
         for end, word in zip(one.ends, ("least", "largest"))
     ),
+    *(Coefficient(name, _OIL_UNITS[one.quantity], _OIL_WORDS[name]) for name, one in OIL.items()),
 )
 _law.__name__ = "condensed"
 _law.__signature__ = inspect.Signature(  # type: ignore[attr-defined]
@@ -117,5 +134,6 @@ condensed = friction_law(
     status="regression of this package's own full solutions for one oil: `mixedlub condense OIL` writes a file with "
     "the coefficients, their range and their error; `mixedlub evaluate regression` writes one of measured traction",
     coefficients=COEFFICIENTS,
+    of_oil=OIL,
     limits={one.name: (None if one.letter == "s" else one.ends[0], one.ends[1], one.factor) for one in INPUTS},
 )(_law)

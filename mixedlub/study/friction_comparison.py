@@ -15,7 +15,7 @@ from mixedlub.chain.model import Model
 from mixedlub.friction import BASE, catalogue, find
 from mixedlub.gear.mesh import Mesh, at_roll_angle
 from mixedlub.schema.toml_file import parse
-from mixedlub.study.friction_options import check_coefficients
+from mixedlub.study.friction_options import check_coefficients, check_oil
 from mixedlub.study.options import FURTHER, with_friction
 from mixedlub.study.plan import Study, condition_inputs, read_study, surface_inputs
 from mixedlub.study.results import Results, run_study
@@ -151,7 +151,10 @@ def compared(
     a, b = study.pairings[0] if pairing is None else names[pairing]
     here = study.file.model_copy(update={"conditions": parse(Conditions, chosen, "condition to compare at")})
     one = here.model_copy(update={"pairings": Pairings(pinion=(a,), gear=(b,))})
-    given = checked(coefficients) | _own(study, coefficients)
+    given = checked(coefficients)
+    for name, own in given.items():
+        check_oil(find(name), own, study.oil, f"--coefficients: {name}")
+    given |= _own(study, coefficients)
     return Comparison(_altered(study, one), _altered(study, here), given)
 
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+
+import numpy as np
 
 from mixedlub import friction
 from mixedlub.chain.documented import check_given
+from mixedlub.chain.friction_law import FrictionLaw
 from mixedlub.chain.model import Model, available
 from mixedlub.effects import known_in
 from mixedlub.rig.lubricant import Lubricant
@@ -24,6 +27,20 @@ def check_coefficients(options: Options, place: str = PLACE) -> None:
     assumed = [f"{c.name} = {c.default:g}" for c in law.coefficients if c.name not in given]
     if assumed:
         report(finding("friction_coefficient_assumed", f"{', '.join(assumed)} taken for {law.name}", place))
+
+
+def check_oil(law: FrictionLaw, given: Mapping[str, float], oil: Lubricant, place: str = PLACE) -> None:
+    """Refuse a law that is for one oil alone with another one."""
+    for name, one in law.of_oil.items():
+        wanted = given.get(name, 0.0)
+        own = float(oil.inputs(np.array(one.temperature))[one.quantity]) / one.factor
+        if wanted > 0.0 and abs(own / wanted - 1.0) > one.tolerance:
+            unit = next(c.unit for c in law.coefficients if c.name == name)
+            rule = (
+                f"the oil of the study, {oil.name}, has {own:.4g} {unit}; the two must agree within "
+                f"{100.0 * one.tolerance:g} %, since {law.name} friction is for one oil: make it from that of the study"
+            )
+            raise InputError(rule, where=f"{place}: {name}", value=float(f"{wanted:.4g}"))
 
 
 def check_viscosity(options: Options, oil: Lubricant) -> None:

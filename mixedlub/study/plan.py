@@ -31,7 +31,13 @@ from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, report
 from mixedlub.slots import ASPERITY_LOAD, SLOTS
 from mixedlub.study.bands import Group, groups
-from mixedlub.study.friction_options import check_coefficients, check_effects, check_friction, check_viscosity
+from mixedlub.study.friction_options import (
+    check_coefficients,
+    check_effects,
+    check_friction,
+    check_oil,
+    check_viscosity,
+)
 from mixedlub.study.heights import HeightTables, height_tables
 from mixedlub.study.options import FURTHER, at_hardness, ignored, study_chain
 from mixedlub.study.origins import by_origin, losing
@@ -263,6 +269,7 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     check_coefficients(options)
     points = rig.mesh(options.path_points, options.face_slices)
     oil = rig.oil()
+    check_oil(friction.find(options.friction), options.friction_coefficients, oil)
     check_viscosity(options, oil)
     surfaces = {s: rig.surface(s) for s in used}
     for s, one in surfaces.items():

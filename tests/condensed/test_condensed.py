@@ -18,6 +18,7 @@ from profiles.errors import InputError, RunError
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "condensed_m100.toml"
 COUNT = 300
+OF_OIL = points.properties_of(example_oil())
 
 
 def planted(noise: float) -> pd.DataFrame:
@@ -34,11 +35,11 @@ def planted(noise: float) -> pd.DataFrame:
 
 
 def test_a_power_law_is_found_and_scatter_is_the_stated_error() -> None:
-    exact = regression.regression(planted(0.0))
+    exact = regression.regression(planted(0.0), OF_OIL)
     assert exact.coefficients["c_p"] == pytest.approx(0.5)
     assert exact.coefficients["c_v"] == pytest.approx(0.1)
     assert exact.fit["left_out_rms_of_log"] == pytest.approx(0.0, abs=1e-9)
-    scattered = regression.regression(planted(0.05))
+    scattered = regression.regression(planted(0.05), OF_OIL)
     assert scattered.fit["left_out_rms_of_log"] == pytest.approx(0.05, rel=0.25)
     error = scattered.standard_errors["c_p"]
     assert abs(scattered.coefficients["c_p"] - 0.5) < 4.0 * error
@@ -49,7 +50,7 @@ def test_too_few_solutions_say_how_many_are_needed() -> None:
     table = planted(0.0)
     table.loc[60:, "status"] = "no solution"
     with pytest.raises(RunError, match="60 contacts have a solution; the regression needs"):
-        regression.regression(table)
+        regression.regression(table, OF_OIL)
 
 
 def test_contacts_slide_both_ways_at_all_pressures() -> None:
@@ -77,7 +78,7 @@ def test_fresh_solutions_are_within_the_stated_error() -> None:
 
 
 def test_the_file_has_every_coefficient_and_the_published_law_is_compared_over_its_range() -> None:
-    found = regression.regression(planted(0.02))
+    found = regression.regression(planted(0.02), OF_OIL)
     file = tomllib.loads(law_file('an "oil"', found))
     assert file["coefficients"].keys() == {c.name for c in COEFFICIENTS}
     assert file["oil"] == 'an "oil"'

@@ -1,4 +1,4 @@
-"""Contacts that Newton's method does not solve at once: little sliding of thick oils, and oil that nearly stands still."""
+"""Contacts that Newton's method does not solve at once: thick oils with little sliding, and oil that nearly stands."""
 
 import numpy as np
 import pytest

@@ -30,9 +30,9 @@ def expansion_of(density_ratio: Callable[[np.ndarray, np.ndarray], Slopes]) -> C
 class Oil:
     """Laws and constants of one oil.
 
-    ``log_viscosity``, ``density_ratio`` and ``expansion`` (1/K) take pressure and temperature; ``shear`` takes stress and pressure and gives
-    viscosity times shear rate; ``stress_scale`` and ``stress_limit`` by pressure are where it leaves Newton's law, and
-    what it never reaches (Pa). Densities are relative to ``density``.
+    ``log_viscosity``, ``density_ratio`` and ``expansion`` (1/K) take pressure and temperature; ``shear`` takes stress
+    and pressure and gives viscosity times shear rate; ``stress_scale`` and ``stress_limit`` by pressure are where it
+    leaves Newton's law, and what it never reaches (Pa). Densities are relative to ``density``.
     """
 
     name: str
@@ -53,3 +53,12 @@ class Oil:
         """Viscosity (Pa s) and pressure-viscosity coefficient (1/Pa) at ambient pressure."""
         log, slope, _ = self.log_viscosity(np.zeros_like(temperature), temperature)
         return np.exp(log), slope
+
+    @property
+    def eyring_stress(self) -> float:
+        """Eyring stress (Pa) of a Ree-Eyring oil whose stress is the same at every pressure; zero of another oil."""
+        pressure = np.array([0.0, 1e9])
+        own = self.stress_scale(pressure)
+        rates = [self.shear(ratio * own, pressure)[0] / (np.sinh(ratio) * own) for ratio in (1.0, 3.0)]
+        same = np.ptp(own) == 0.0 and np.allclose(rates, 1.0, rtol=1e-6)
+        return float(own[0]) if same else 0.0
