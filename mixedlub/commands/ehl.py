@@ -61,7 +61,7 @@ def command(
     clear_parts(folder)
     echo(f"{len(table) - len(failed)} of {len(table)} contacts solved in {taken:.2f} s")
     for row in table.head(MOST_PRINTED).to_dict("records"):
-        echo(_line(row) if row["status"] == CONVERGED else f"  contact {row['contact']}: {row['status']}")
+        echo(_line(row) if row["status"] == CONVERGED else _unsolved(row))
     if failed:
         note(f"no solution of contact {', '.join(map(str, failed[:MOST_PRINTED]))}: its results are empty")
     if problem.oil.newtonian and problem.contacts.pressure.max() > NEWTONIAN_PRESSURE:
@@ -82,6 +82,11 @@ def _line(row: Mapping[Any, Any]) -> str:
         f"  contact {row['contact']}: film {row['central_film_um']:.4g} um (least {row['minimum_film_um']:.4g}, error"
         f" {row['central_film_error_percent']:.1g} %), friction {friction:.4f}{shared}"
     )
+
+
+def _unsolved(row: Mapping[Any, Any]) -> str:
+    numbers = f"Moes' M {row['moes_load']:.3g}, L {row['moes_material']:.3g}, {row['hertz_pressure_GPa']:.3g} GPa"
+    return f"  contact {row['contact']}: {row['status']}: the steps did not end ({numbers})"
 
 
 def _draw(title: str, table: pd.DataFrame, profiles: pd.DataFrame, folder: Path, formats: tuple[str, ...]) -> None:

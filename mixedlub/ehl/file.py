@@ -37,6 +37,7 @@ STEEL_MODULUS, STEEL_RATIO = (206.0, 206.0), (0.3, 0.3)
 """Young's moduli (GPa) and Poisson's ratios of two steel bodies."""
 Positive = Annotated[Number, Field(gt=0.0)]
 Pair = tuple[Positive, Positive]
+Poisson = Annotated[Number, Field(gt=-1.0, le=0.5)]
 
 
 def _listed(value: Any) -> Any:
@@ -52,7 +53,7 @@ class Bodies(Section):
     youngs_modulus_GPa: Pair | None = key(
         "Young's moduli; left out: steel, or those of [gears]", None, example=[206.0, 206.0]
     )
-    poisson_ratio: tuple[Number, Number] | None = key(
+    poisson_ratio: tuple[Poisson, Poisson] | None = key(
         "Poisson's ratios; left out: steel, or those of [gears]", None, example=[0.3, 0.3]
     )
     thermal_conductivity_W_mK: Pair = key("thermal conductivities", (STEEL["conductivity"],) * 2)

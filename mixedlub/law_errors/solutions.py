@@ -99,12 +99,15 @@ def as_csv(table: pd.DataFrame) -> str:
 
 def read_solutions(path: Path) -> pd.DataFrame:
     """The table of a file, checked."""
+    if path.is_dir():
+        raise InputError("is a folder; name a file in it", where="--solutions", value=str(path))
     try:
         table = pd.read_csv(path)
     except FileNotFoundError:
         raise InputError("no such file", where="--solutions", value=str(path)) from None
     except (OSError, ValueError) as error:
-        raise InputError(f"is no table of solutions ({error})", where="--solutions", value=str(path)) from None
+        rule = f"is no table of solutions ({str(error).strip()})"
+        raise InputError(rule, where="--solutions", value=str(path)) from None
     for name in columns():
         if name not in table:
             near = nearest(name, list(map(str, table.columns)))

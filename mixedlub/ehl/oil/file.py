@@ -14,7 +14,7 @@ from pydantic import model_validator
 from mixedlub.ehl.oil import density, shear, viscosity
 from mixedlub.ehl.oil.lubricant import from_lubricant
 from mixedlub.ehl.oil.oil import Oil, constant, expansion_of
-from mixedlub.laws.oil import ZERO_CELSIUS
+from mixedlub.laws.oil import ROELANDS_LOG, ZERO_CELSIUS
 from mixedlub.rig.build import lubricant
 from mixedlub.schema.findings import collected, warn_of
 from mixedlub.schema.oil_file import SCHEMA, SUFFIX
@@ -79,6 +79,13 @@ class Viscosity(LawSection):
         free = ("temperature_C", "viscosity_mPa_s", "free_volume_factor", "occupied_share", "occupied_expansion_per_K")
         moduli = ("modulus_GPa", "modulus_per_kelvin_MPa", "stiffening", "stiffening_per_K")
         return {"roelands": at_one, "barus": at_one, "modulus": (*walther, *moduli), "doolittle": free}
+
+    @model_validator(mode="after")
+    def _above_roelands_pole(self) -> Viscosity:
+        least = np.exp(-ROELANDS_LOG) / MILLI
+        if self.law == "roelands" and self.viscosity_mPa_s is not None and self.viscosity_mPa_s <= least:
+            raise ValueError(f"viscosity_mPa_s: {self.viscosity_mPa_s:g}: must be above {least:.3g} for Roelands' law")
+        return self
 
 
 class Shear(LawSection):
@@ -157,6 +164,13 @@ class Thermal(Section):
 class Range(Section):
     temperature_C: Pair = key("lowest and highest temperature of oil and bodies", example=[20.0, 150.0])
     largest_pressure_GPa: Number = key("largest Hertz pressure", example=2.0, gt=0.0)
+
+    @model_validator(mode="after")
+    def _upwards(self) -> Range:
+        low, high = self.temperature_C
+        if low >= high:
+            raise ValueError(f"temperature_C: {high:g}: must be above {low:g}, the lowest temperature")
+        return self
 
 
 class OilFile(Section):
