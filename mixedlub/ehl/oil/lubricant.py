@@ -15,9 +15,7 @@ from mixedlub.rig.lubricant import Lubricant
 
 def from_lubricant(of: Lubricant) -> Oil:
     """A Ree-Eyring oil; its viscosity is by the modulus equation where it has the constants, else by Roelands."""
-    squeezed = partial(
-        density.dowson_higginson, known_temperature=oil.ZERO_CELSIUS + 15.0, expansion=of.density_change
-    )
+    squeezed = partial(density.dowson_higginson, known_temperature=oil.ZERO_CELSIUS + 15.0, expansion=of.density_change)
     return Oil(
         name=of.name,
         log_viscosity=partial(roelands if of.pressure_modulus is None else modulus, of=of),
