@@ -12,7 +12,7 @@ from mixedlub.ehl.newton import PATIENT, SHORT, converge
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.ehl.state import State
 
-LARGEST, LEAST = 1.0, 0.01
+LARGEST, LEAST = 5.0, 0.01
 """Slide-to-roll ratio from which the way to that of the contact begins, and below which it goes there at once."""
 FIRST, FASTEST, SLOWEST = 0.5, 0.4, 0.97
 """Factor on the sliding in the first stage, the least one, and one so near to one that there is no way on."""
