@@ -38,7 +38,12 @@ def _residuals(table: pd.DataFrame) -> Figure:
                 axis.set_xlabel(f"{one.name.replace('_', ' ').replace('hertz', 'Hertz')} ({one.written})")
         ends = [float(table["friction"].min()), float(table["friction"].max())]
         axes[0].plot(ends, ends, color="0.5", lw=0.8)
-        axes[0].set(xscale="log", yscale="log", xlabel="solved friction coefficient (-)", ylabel="fitted (-)")
+        axes[0].set(
+            xscale="log",
+            yscale="log",
+            xlabel="solved friction coefficient (-)",
+            ylabel="fitted friction coefficient (-)",
+        )
         axes[0].legend()
         axes[1].set(xscale="log", xlabel="fitted friction coefficient (-)")
         axes[2].hist(left / left.std(), bins=30, color="C0")
@@ -64,6 +69,7 @@ def _against(table: pd.DataFrame) -> Figure:
             axis.set(xscale="log", title=f"{pressure:.2g} GPa, {middle:.3g} mPa s")
             axis.set_xlabel("slide-to-roll ratio (-)")
             axis.set_ylabel("friction coefficient (-)")
+        axes[0].plot([], [], color="0.4", ls="--", label="published, each speed")
         axes[0].legend()
     return figure
 

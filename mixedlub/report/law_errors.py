@@ -19,8 +19,30 @@ if TYPE_CHECKING:
 FILM_LAWS = ("dowson_toyoda_central", "dowson_higginson_minimum", "moes", "inlet_shear_heating (Gupta)")
 FRICTION_LAWS = ("base model, isothermal", "base model and film_heating", "crook", "xu_kahraman")
 """Laws that have a map."""
-NARROW, WIDE = (0.7, 1.0 / 0.7), (0.25, 4.0)
-"""Ratios at the ends of the colours of films and of friction."""
+TITLES = {
+    "dowson_toyoda_central": "Dowson and Toyoda, central film",
+    "dowson_higginson_minimum": "Dowson and Higginson, minimum film",
+    "moes": "Moes, flow film",
+    "inlet_shear_heating (Gupta)": "Gupta's inlet heating",
+    "base model and film_heating": "base model and film heating",
+    "crook": "Crook",
+    "xu_kahraman": "Xu and Kahraman",
+    "film_over_law": "central film, isothermal",
+    "thermal_film_over_law": "central film, with heat",
+    "flow_film_over_law": "flow film, isothermal",
+    "minimum_film_over_law": "minimum film, isothermal",
+    "traction_mean_over_peak": "isothermal",
+    "thermal_traction_over_peak": "with heat",
+}
+"""Titles of panels."""
+NARROW, WIDE, TRACTION = (0.7, 1.0 / 0.7), (0.25, 4.0), (0.4, 2.5)
+"""Ratios at the ends of the colours of films, of friction, and of traction over that at the largest pressure."""
+_TICKS = {
+    NARROW: (0.7, 0.8, 0.9, 1.0, 1.1, 1.25, 1.4),
+    WIDE: (0.25, 0.5, 0.7, 1.0, 1.4, 2.0, 4.0),
+    TRACTION: (0.4, 0.6, 0.8, 1.0, 1.25, 1.6, 2.5),
+}
+"""Ticks of the colours, by their ends."""
 
 
 def figures(laws: pd.DataFrame, fitted: pd.DataFrame) -> Iterator[tuple[str, Figure]]:
@@ -30,9 +52,9 @@ def figures(laws: pd.DataFrame, fitted: pd.DataFrame) -> Iterator[tuple[str, Fig
     yield "film_laws", _maps(laws, _there(laws, FILM_LAWS), regime, NARROW, "film by the law over the solved one (-)")
     label = "friction by the law over the solved one (-)"
     yield "friction_laws", _maps(laws, _there(laws, FRICTION_LAWS), sliding, WIDE, label)
-    titles = "solved film over that of its law (-)", "traction of the contact over that at the largest pressure (-)"
+    titles = "solved film over that of its law (-)", "traction over that at\nlargest pressure (-)"
     yield "film_ratios", _maps(fitted, FILM_RATIOS, regime, NARROW, titles[0])
-    yield "traction_ratios", _maps(fitted, TRACTION_RATIOS, sliding, (0.4, 2.5), titles[1])
+    yield "traction_ratios", _maps(fitted, TRACTION_RATIOS, sliding, TRACTION, titles[1])
 
 
 def _there(table: pd.DataFrame, names: tuple[str, ...]) -> tuple[str, ...]:
@@ -54,19 +76,16 @@ def _maps(
             marks = panel.scatter(
                 table[across], table[up], c=table[name], s=5.0, cmap="coolwarm", norm=LogNorm(*ends), linewidths=0.0
             )
-            panel.set_title(name.replace("_", " "))
+            panel.set_title(TITLES.get(name, name))
             _scale(panel, across, up)
-            panel.set_xlabel(x_label)
+            if place + columns >= len(names):
+                panel.set_xlabel(x_label)
             if place % columns == 0:
                 panel.set_ylabel(y_label)
         bar = figure.colorbar(marks, ax=axes, label=label, extend="both", shrink=0.7)
-        ticks = [tick for tick in _TICKS if ends[0] <= tick <= ends[1]]
-        bar.set_ticks(ticks, labels=[f"{tick:g}" for tick in ticks])
+        bar.set_ticks(_TICKS[ends], labels=[f"{tick:g}" for tick in _TICKS[ends]])
         bar.minorticks_off()
     return figure
-
-
-_TICKS = (0.25, 0.4, 0.5, 0.7, 0.8, 0.9, 1.0, 1.1, 1.25, 1.4, 2.0, 2.5, 4.0)
 
 
 def _scale(panel: Axes, across: str, up: str) -> None:
