@@ -74,7 +74,7 @@ def properties_of(oil: Oil) -> dict[str, float]:
     found = {}
     for name, one in OIL.items():
         viscosity, coefficient = oil.at_ambient(np.array(one.temperature))
-        own = {"viscosity": viscosity, "pressure_viscosity": coefficient, "eyring_stress": oil.eyring_stress}
+        own = {"viscosity": viscosity, "pressure_viscosity": coefficient, "eyring_stress": np.array(oil.eyring_stress)}
         found[name] = float(own[one.quantity]) / one.factor
     return found
 
