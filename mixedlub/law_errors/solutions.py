@@ -12,7 +12,7 @@ import pandas as pd
 from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.oil.file import oil_of
 from mixedlub.ehl.oil.oil import Oil
-from mixedlub.ehl.solve import CONVERGED, Way, contacts
+from mixedlub.ehl.solve import CONVERGED, DIVERGED, Way, contacts
 from mixedlub.law_errors.rigs import draw
 from mixedlub.laws.oil import ZERO_CELSIUS
 from profiles.errors import InputError, nearest
@@ -37,6 +37,8 @@ RESULTS = {
 """Results of an isothermal and of a thermal solution: column and its factor from SI."""
 ERRORS = {"central_film_error": "film_error_percent", "friction_coefficient_error": "friction_error_percent"}
 WAYS = ("isothermal", "thermal")
+STATUSES = (CONVERGED, DIVERGED)
+_EITHER = " or ".join(map(repr, STATUSES))
 
 
 def oils(names: Sequence[str]) -> dict[str, Oil]:
@@ -108,6 +110,8 @@ def read_solutions(path: Path) -> pd.DataFrame:
     except (OSError, ValueError) as error:
         rule = f"is no table of solutions ({str(error).strip()})"
         raise InputError(rule, where="--solutions", value=str(path)) from None
+    if not len(table):
+        raise InputError("has no rows", where=str(path))
     for name in columns():
         if name not in table:
             near = nearest(name, list(map(str, table.columns)))
@@ -116,7 +120,22 @@ def read_solutions(path: Path) -> pd.DataFrame:
             wrong = int(pd.to_numeric(table[name], errors="coerce").isna().argmax())
             value = str(table[name].iloc[wrong])
             raise InputError("must be a number", where=f"{path}: line {wrong + 2}: {name}", value=value)
+    table = table.astype({name: str for name in columns() if name == "oil" or name.endswith("_status")})
+    _check_values(table, path)
     return table[columns()]
+
+
+def _check_values(table: pd.DataFrame, path: Path) -> None:
+    """Refuse conditions that are none of a contact, and other words of a status than those of the solver."""
+    rules = {f"{kind}_status": (table[f"{kind}_status"].isin(STATUSES), f"must be {_EITHER}") for kind in WAYS}
+    for name in ("radius_mm", "line_load_N_mm", "entrainment_speed_m_s"):
+        rules[name] = (table[name] > 0.0) & np.isfinite(table[name]), "must be above 0"
+    for name in ("slide_roll_ratio", "oil_temperature_C"):
+        rules[name] = np.isfinite(table[name]), "must be a finite number"
+    for name, (fine, rule) in rules.items():
+        if not fine.all():
+            wrong = int(np.argmin(fine.to_numpy()))
+            raise InputError(rule, where=f"{path}: line {wrong + 2}: {name}", value=table[name].tolist()[wrong])
 
 
 def columns() -> list[str]:

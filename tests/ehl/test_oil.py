@@ -186,6 +186,8 @@ def test_roelands_is_that_of_the_other_chains():
         ("eyring_stress_MPa = 5.0\n", "", 'law = "ree_eyring" needs eyring_stress_MPa'),
         ("eyring_stress_MPa = 5.0", "eyring_stress_MPa = 5.0\npower = 0.5", "power acts only with law"),
         ("eyring_stress_MPa = 5.0", "eyring_stress_MPa = -5.0", "-5.0: must be above 0"),
+        ("viscosity_mPa_s = 14.89", "viscosity_mPa_s = 0.05", "0.05: must be above 0.0631 for Roelands' law"),
+        ("temperature_C = [20.0, 150.0]", "temperature_C = [150.0, 20.0]", "20: must be above 150"),
         ("eyring_stress_MPa", "eyring_stres_MPa", "nearest known: 'eyring_stress_MPa'"),
         ("temperature_viscosity_per_K = 0.030\n", "", 'law = "roelands" needs temperature_viscosity_per_K'),
         ('law = "dowson_higginson"', 'law = "incompressible"', "expansion_per_K acts only with"),
@@ -212,3 +214,18 @@ def test_free_volume_without_what_it_needs_is_refused(changes, said, tmp_path):
     with pytest.raises(InputError) as error:
         read_oil(written(tmp_path, *changes))
     assert said in str(error.value)
+
+
+def test_the_expansion_that_compression_heats_is_that_of_the_density(tmp_path):
+    oil = read_oil(written(tmp_path, (DENSITY, TAIT)))
+    pressure, temperature = np.array(1e9), np.array(350.0)
+    warm, cold = (oil.density_ratio(pressure, temperature + step)[0] for step in (0.01, -0.01))
+    assert oil.expansion(pressure, temperature) == pytest.approx(-np.log(warm / cold) / 0.02, rel=1e-6)
+    assert oil.expansion(pressure, temperature) < 0.7 * oil.expansion(0.0 * pressure, temperature)
+
+
+@pytest.mark.parametrize("law", SHEARS)
+def test_only_a_constant_eyring_stress_is_one(law, tmp_path):
+    assert read_oil(written(tmp_path, (SHEAR, f"[shear]\n{SHEARS[law]}\n\n"))).eyring_stress == (
+        pytest.approx(5e6) if 'law = "ree_eyring"' in SHEARS[law] else 0.0
+    )

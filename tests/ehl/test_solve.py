@@ -120,6 +120,7 @@ def test_places_along_the_path_of_a_gear_pair(folder):
         ("slide_roll_ratio = 0.34", "slide_roll_ratio = 2", "slide less"),
         ("# thermal = true", "thermal = 1.5", "thermal"),
         ("[contacts]", "[contact]", "nearest known"),
+        ("[contacts]", "[bodies]\npoisson_ratio = [1.0, 0.3]\n[contacts]", "1.0: must be at most 0.5"),
     ],
 )
 def test_a_file_that_is_wrong_is_refused(folder, capsys, old, new, said):

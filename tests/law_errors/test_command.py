@@ -65,3 +65,23 @@ def test_a_table_that_is_not_of_solutions_is_refused(
     said = capsys.readouterr().err
     assert "radius_mm" in said
     assert spoiled == "column" or "line 5" in said
+
+
+@pytest.mark.parametrize(
+    ("column", "value", "said"),
+    [
+        ("line_load_N_mm", -1.0, "line 2: line_load_N_mm: -1.0: must be above 0"),
+        ("entrainment_speed_m_s", float("nan"), "entrainment_speed_m_s: nan: must be above 0"),
+        ("thermal_status", "yes", "thermal_status: 'yes': must be 'converged' or 'no solution'"),
+        ("oil", 3, "'3': no such oil"),
+        (None, None, "has no rows"),
+    ],
+)
+def test_values_that_are_none_of_a_contact_are_refused(
+    column: str | None, value: object, said: str, one_oil: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    table = pd.read_csv(one_oil)
+    table = table.head(0) if column is None else table.assign(**{column: value})
+    table.to_csv(tmp_path / "bad.csv", index=False)
+    assert main(["law-errors", "--solutions", str(tmp_path / "bad.csv"), "--out", str(tmp_path / "out")]) == 2
+    assert said in capsys.readouterr().err

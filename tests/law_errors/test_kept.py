@@ -33,7 +33,7 @@ def test_kept_solutions_cover_the_range_of_gears_and_are_small(kept: pd.DataFram
     assert solutions.KEPT.stat().st_size < 200_000
     assert kept["oil"].nunique() >= 2
     share = (kept[["isothermal_status", "thermal_status"]] == CONVERGED).mean()
-    assert (share > 0.93).all()
+    assert (share > 0.99).all()
     for oil, rows in kept.groupby("oil"):
         of = read_oil(str(oil))
         found = solutions.contacts_of(rows)
