@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from mixedlub.condensed.regression import Regression, design_of, fitted, limits_of
-from mixedlub.friction.condensed import INPUTS, TERMS, coefficient_name
+from mixedlub.friction.condensed import INPUTS, OIL, TERMS, coefficient_name
 
 Criterion = Literal["bic", "p-value"]
 ENTER, LEAVE = 0.05, 0.10
@@ -112,7 +112,7 @@ def measured_regression(
 
     ``values`` are the inputs in their units, of `FEWEST` readings or more. The logarithm of friction is regressed over
     products of up to ``order`` logarithms of the inputs. Standard errors hold for the terms chosen, and for readings
-    that scatter independently.
+    that scatter independently. Coefficients of the oil are left unknown.
 
     Source: H. Xu, PhD thesis, Ohio State University, 2005, chapter 3, for the multiple regression of the logarithm of
     measured friction over transformed terms.
@@ -121,7 +121,9 @@ def measured_regression(
     kept = chosen_terms(every[candidates(varied(values), order)], wanted, by)
     fit = least_squares(every[kept], wanted)
     coefficients = (
-        dict.fromkeys(map(str, every), 0.0) | {name: float(fit.params[name]) for name in kept} | limits_of(values)
+        dict.fromkeys([*map(str, every), *OIL], 0.0)
+        | {name: float(fit.params[name]) for name in kept}
+        | limits_of(values)
     )
     table = pd.DataFrame({one.column: values[one.name] for one in INPUTS} | {"friction_coefficient": friction})
     table["fitted"] = fitted(values, coefficients)

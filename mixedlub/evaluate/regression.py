@@ -16,11 +16,12 @@ from mixedlub.condensed.regression import Regression
 from mixedlub.condensed.stepwise import FEWEST, PER_TERM, least_squares, measured_regression, varied
 from mixedlub.evaluate.evaluation import BEYOND_VISCOSITY, Curve, Evaluated, Evaluation, Panel, file_name
 from mixedlub.evaluate.two_disc import hertz
-from mixedlub.friction.condensed import INPUTS
+from mixedlub.friction.condensed import INPUTS, OIL
 from mixedlub.kinds import columns
 from mixedlub.kinds.disc import reduced_radius
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.build import lubricant
+from mixedlub.rig.lubricant import Lubricant as Oil
 from mixedlub.schema.findings import collected
 from mixedlub.schema.section import Section, Whole, key
 from mixedlub.schema.system_file import Contact, Lubricant, RigFile
@@ -90,9 +91,8 @@ class Law:
     found: Regression
 
 
-def inputs_of(file: RegressionFile, table: Table, path: Path) -> dict[str, np.ndarray]:
+def inputs_of(file: RegressionFile, table: Table, oil: Oil) -> dict[str, np.ndarray]:
     """Inputs of the law in their units."""
-    oil = lubricant(file.lubricant, BEYOND_VISCOSITY, path.parent)
     radius = reduced_radius(file.contact.radius_mm, "radius_mm")
     values = (
         hertz(file.contact, table["load_N"])["hertz_pressure_MPa"] * 1e-3,
@@ -136,7 +136,8 @@ def run(file: RegressionFile, path: Path) -> Evaluated:
         raise InputError("no reading has sliding", where=f"{source}: slide_roll_ratio", value=0.0)
     table = table.take(slides)
     with collected() as findings:
-        values = inputs_of(file, table, path)
+        oil = lubricant(file.lubricant, BEYOND_VISCOSITY, path.parent)
+        values = inputs_of(file, table, oil)
     laws = list(laws_of(file, table, values))
     notes = [str(one) for one in dict.fromkeys(findings)]
     if not slides.all():
@@ -147,7 +148,7 @@ def run(file: RegressionFile, path: Path) -> Evaluated:
         "readings": pd.concat([_readings(law, table) for law in laws], ignore_index=True),
         "fits": pd.DataFrame([_fit(law, table) for law in laws]),
     }
-    files = {f"{file_name(law.name)}.toml": _law_text(file, law) for law in laws}
+    files = {f"{file_name(law.name)}.toml": _law_text(file, law, oil) for law in laws}
     return Evaluated(file.title, tables, _figures(laws), tuple(map(_line, laws)), tuple(notes), files=files)
 
 
@@ -192,14 +193,16 @@ def _fit(law: Law, table: Table) -> dict[str, Any]:
     return row
 
 
-def _law_text(file: RegressionFile, law: Law) -> str:
+def _law_text(file: RegressionFile, law: Law, oil: Oil) -> str:
     surfaces = "" if law.surfaces == " / " else f" on {law.surfaces}"
-    oil = file.lubricant.oil or file.lubricant.name or "the oil"
+    name = file.lubricant.oil or file.lubricant.name or "the oil"
     about = (
-        f"Measured friction of {oil}{surfaces}; sliding: {law.sign}.\n"
+        f"Measured friction of {name}{surfaces}; sliding: {law.sign}.\n"
         f"{law.found.fit['readings']} readings. Written by `mixedlub evaluate regression`."
     )
-    return friction_file("condensed", oil, about, law.found.fit, law.found.coefficients)
+    known = {key: oil.inputs(np.array(one.temperature))[one.quantity] / one.factor for key, one in OIL.items()}
+    viscosities = {key: float(known[key]) for key, one in OIL.items() if one.quantity == "viscosity"}
+    return friction_file("condensed", name, about, law.found.fit, {**law.found.coefficients, **viscosities})
 
 
 def _line(law: Law) -> str:
