@@ -9,6 +9,8 @@ REFERENCE_FRICTION = 0.05
 """Friction coefficient at which the saturation slip is stated."""
 REFERENCE_PRESSURE = 1e9
 """Hertz pressure (Pa) at which the saturation slip is stated."""
+CARTER, VERMEULEN_JOHNSON = 8.8e-4, 7.7e-4
+"""That slip of steel bodies alone: 4 mu p_0/E' of a line contact, 2 mu p_0 (0.609)/G of a circle at Poisson's 0.3."""
 
 
 @effect(
@@ -18,10 +20,11 @@ REFERENCE_PRESSURE = 1e9
         Parameter(
             "saturation_slip",
             "-",
-            LogNormal(0.015, 1.0),
+            LogNormal(0.015, 1.5),
             "slip at which the whole contact slides, at a friction coefficient of 0.05 and 1 GPa",
             null=0.0,
             symbol="S_0",
+            nominal=CARTER,
         ),
         Parameter(
             "power",
@@ -52,7 +55,17 @@ REFERENCE_PRESSURE = 1e9
     "215, film and bodies yielding under the film's traction alone (a = 0)",
     fingerprint={"slide_roll_ratio": "+"},
     applied_after=("mixture_law",),
-    special_cases={"bodies alone": {"elastic": 1.0}, "one slip": {"elastic": 0.0}},
+    special_cases={
+        "Carter": {"saturation_slip": CARTER, "power": 2.0, "elastic": 1.0, "of_asperities": 1.0},
+        "Vermeulen and Johnson": {
+            "saturation_slip": VERMEULEN_JOHNSON,
+            "power": 3.0,
+            "elastic": 1.0,
+            "of_asperities": 1.0,
+        },
+        "bodies alone": {"elastic": 1.0},
+        "one slip": {"elastic": 0.0},
+    },
     separated_by="a sweep of slip below one per cent at constant speed: the rise is proportional to slip and does "
     "not depend on viscosity or speed as a fluid film does",
     valid={"slide_roll_ratio": (0.0, 0.5)},
@@ -75,8 +88,9 @@ def contact_creep(
     Creep is proportional to traction, so full sliding begins at a slip proportional to friction and pressure;
     wheel-rail laws often use one constant slip. In dry contact this holds for all friction. In lubricated contact it
     may hold for the film's traction only: asperities meet and part many times in a passage and may slide from first
-    touch. Steel bodies alone have S_0 of 0.0009 (Carter; Vermeulen and Johnson); the film and the fixtures of a rig
-    give way too. The reference pressure of 1 GPa of S_0 makes the form belong to Pa.
+    touch. Steel bodies alone have S_0 of 0.0009 (Carter) or 0.0008 (Vermeulen and Johnson); the film and the fixtures
+    of a rig give way too, to 0.03 and more, and the prior reaches over both. The reference pressure of 1 GPa of S_0
+    makes the form belong to Pa.
 
     >>> S, creep = np.array([0.0, 0.01, 0.05]), dict(saturation_slip=0.02, power=3.0, elastic=1.0)
     >>> contact_creep(0.05, 0.1, 0.2, S, 1e9, **creep, of_asperities=1.0).round(5).tolist()

@@ -9,6 +9,8 @@ from mixedlub.powers import power
 AIR_DENSITY = 1.2
 AIR_VISCOSITY = 1.8e-5
 GRAVITY = 9.81
+SLOW_BATH, FAST_BATH = 750.0, 1250.0
+"""Accelerations (m/s^2) below and above which one of the two laws of Changenet and Velex holds alone."""
 
 
 def windage_diab(
@@ -59,7 +61,7 @@ def churning_changenet_velex(
     ratios of immersion and oil volume.
     Other exponents pivot at Fr 70, Re 16 000 (a 100 mm wheel at 1100 rpm in oil of 20 mm^2/s). Published methods
     differ by a factor 6 at 5000 rpm. The acceleration of gravity makes the form belong to m/s^2. Valid where
-    `bath_acceleration` is below 750 m/s^2; the authors' other law, of another form, holds above 1250 m/s^2.
+    `bath_acceleration` is below 750 m/s^2; above 1250 m/s^2 holds `churning_at_high_speed`.
     Source: C. Changenet, P. Velex, J. Mech. Des. 129 (2007) 128; constants as quoted in reviews.
 
     >>> speed = np.array([1000.0, 2000.0, 3000.0]) * np.pi / 30   # 100 mm, 50 mm^2/s
@@ -73,6 +75,54 @@ def churning_changenet_velex(
     drag = drag * power(froude / 70.0, 0.60 - gravity_exponent) * power(reynolds / 16e3, 0.21 - viscosity_exponent)
     area = wetted_area(wheel_radius, face_width, gear_module, wheel_teeth, immersion_ratio, helix_angle)
     return 0.5 * oil_density * wheel_speed**3 * wheel_radius**3 * area * drag
+
+
+def churning_at_high_speed(
+    wheel_radius: np.ndarray,
+    wheel_speed: np.ndarray,
+    face_width: np.ndarray,
+    gear_module: np.ndarray,
+    wheel_teeth: np.ndarray,
+    oil_density: np.ndarray,
+    immersion_ratio: float | np.ndarray = 0.5,
+    volume_ratio: float | np.ndarray = 1.5,
+    helix_angle: float | np.ndarray = 0.0,
+) -> np.ndarray:
+    r"""Power of one wheel that dips into oil (W), at high centrifugal acceleration, whatever the viscosity.
+
+    .. math:: P = \tfrac12\rho\omega^3R^3 S_m C_m,\quad
+              C_m = 3.644\left(\tfrac{h}{D}\right)^{0.1}\left(\tfrac{V_0}{D^3}\right)^{-0.35} Fr^{-0.88}
+              \left(\tfrac{b}{D}\right)^{0.85}
+
+    The acceleration of gravity makes the form belong to m/s^2.
+    Source: C. Changenet, P. Velex, J. Mech. Des. 129 (2007) 128; constants as quoted in reviews.
+
+    >>> speed = np.array([1000.0, 2000.0, 3000.0, 5000.0]) * np.pi / 30
+    >>> churning_at_high_speed(0.05, speed, 0.02, 4e-3, 25.0, 850.0).round().tolist()
+    [10.0, 24.0, 40.0, 76.0]
+    """
+    froude = np.maximum(wheel_speed, 1e-9) ** 2 * wheel_radius / GRAVITY
+    slim = power(face_width / (2.0 * wheel_radius), 0.85)
+    drag = 3.644 * power(0.5 * immersion_ratio, 0.1) * power(volume_ratio, -0.35) * power(froude, -0.88) * slim
+    area = wetted_area(wheel_radius, face_width, gear_module, wheel_teeth, immersion_ratio, helix_angle)
+    return 0.5 * oil_density * wheel_speed**3 * wheel_radius**3 * area * drag
+
+
+def churning_at_either_speed(
+    slow: np.ndarray, fast: np.ndarray, bath_acceleration: np.ndarray, share: float = 1.0
+) -> np.ndarray:
+    r"""Power of one wheel that dips into oil (W) from the laws of low and of high speed.
+
+    .. math:: P = P_{slow} + x\,\mathrm{clip}\left(\frac{\gamma - 750}{1250 - 750}, 0, 1\right)(P_{fast} - P_{slow})
+
+    with gamma in m/s^2, to which the constants make the form belong; a share x below 1 leaves some of the first law.
+    Source: C. Changenet, P. Velex, J. Mech. Des. 129 (2007) 128: one law below 750, the other above 1250.
+
+    >>> churning_at_either_speed(20.0, 30.0, np.array([700.0, 1000.0, 1300.0])).tolist()
+    [20.0, 25.0, 30.0]
+    """
+    passed = np.clip((bath_acceleration - SLOW_BATH) / (FAST_BATH - SLOW_BATH), 0.0, 1.0)
+    return slow + share * passed * (fast - slow)
 
 
 def wetted_area(

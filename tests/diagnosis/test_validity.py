@@ -49,7 +49,7 @@ def test_a_fit_is_judged_by_the_quantities_it_passes_through() -> None:
 
 def fitted(strength: float, spread: float) -> tuple[np.ndarray, np.ndarray]:
     """Coordinates of churning with a power of viscosity, and how far it is known."""
-    return np.array([0.0, strength, 0.0]), np.array([0.1, spread, 0.1])
+    return np.array([0.0, strength, 0.0, 0.0]), np.array([0.1, spread, 0.1, 0.1])
 
 
 def test_powers_that_no_cited_law_has_are_a_doubt() -> None:

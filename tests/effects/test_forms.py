@@ -109,9 +109,9 @@ def test_churning_between_reynolds_numbers_2000_and_1e5_goes_as_boness_has_it() 
     """C_m = 8.6e-4 Re^(1/3): loss as n^(10/3) nu^(-1/3)."""
     wheel = {"gear_radius": 0.05, "face_width": 0.02, "gear_module": 4e-3, "gear_teeth": 25.0, "gears_fitted": 1.0}
     wheel["helix_angle"] = 0.0
-    law = {"strength": 1.0, "viscous": -1.0 / 3.0, "surplus": 0.7, "oil_density": 850.0}
+    law = {"strength": 1.0, "viscous": -1.0 / 3.0, "surplus": 0.7, "second_law": 0.0, "oil_density": 850.0}
     slow, fast, thick = (
-        churning(0.0, gear_speed=speed, viscosity=viscosity, **wheel, **law)
+        churning(0.0, gear_speed=speed, viscosity=viscosity, bath_acceleration=speed**2 * 0.016, **wheel, **law)
         for speed, viscosity in ((100.0, 0.02), (200.0, 0.02), (100.0, 0.16))
     )
     assert fast / slow == pytest.approx(2.0 ** (10.0 / 3.0), rel=1e-12)

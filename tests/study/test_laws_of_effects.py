@@ -31,6 +31,18 @@ def test_churning_is_that_of_changenet_and_velex(write_study):
         assert loss[at, 0] == pytest.approx(law, rel=1e-9)
 
 
+def test_churning_at_high_speed_is_their_second_law(write_study):
+    """Above 1250 m/s^2 at the wheel's rim, 4230 rpm of this pinion: whatever the viscosity, with speed as n^1.24."""
+    file = write_study(effects={"churning": {}}, conditions__speed_rpm=[4300, 8600])
+    study = read_study(file)
+    loss = run_study(study)["other_loss"][0]
+    (_, (radius, speed, teeth)) = wheels(study)
+    density = np.ravel(study.plan.inputs["oil_density"])
+    law = [drag.churning_at_high_speed(radius, speed, 14e-3, 4.2333333e-3, teeth, rho) for rho in density]
+    assert loss[:, 0] == pytest.approx(np.array(law), rel=1e-9)
+    assert loss[0, 0, 1] / loss[0, 0, 0] == pytest.approx(2.0**1.24, rel=1e-9)
+
+
 def test_windage_is_that_of_diab(write_study):
     loss, study = added(write_study, windage={})
     law = sum(drag.windage_diab(radius, speed, 14e-3, teeth) for radius, speed, teeth in wheels(study))

@@ -64,17 +64,6 @@ def test_labelled_result_has_the_validity(write_study):
     assert ((data["validity"] != "valid") == outside).all()
 
 
-def churned(write_study, speed):
-    study = read_study(write_study(**THICK | {"conditions__speed_rpm": [speed]}, effects={"churning": {}}))
-    return codes(out_of_range(run_study(study)))
-
-
-def test_churning_is_flagged_where_its_other_law_holds(write_study):
-    """Changenet and Velex's first law ends at 750 m/s^2, at 3280 rpm of this pinion."""
-    assert "law_extrapolated" not in churned(write_study, 3270)
-    assert "law_extrapolated" in churned(write_study, 3290)
-
-
 def overloaded(write_study, effects, **changes):
     """Largest asperity load ratio of the rough pairing, by torque and speed."""
     rough = {"rough": {"m0_um2": 0.3, "m2": 0.003, "m4_per_um2": 0.004}}

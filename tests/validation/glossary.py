@@ -102,14 +102,16 @@ def _of_gears(c: Contact) -> Values:
     torque = _column(c.rig.conditions["torque_Nm"])
     whole = torque / extras["base_radius"]
     loss = readings(c.rig)
+    wheel, gear_speed = extras["wheel_diameter"] / 2, speed * extras["ratio"]
     return {
         "torque": torque,
         "nominal_loss": _column(loss),
         "reading_scale": float(np.median(np.abs(c.recorded if c.recorded.any() else loss))),
         "pinion_speed": speed,
-        "gear_speed": speed * extras["ratio"],
+        "gear_speed": gear_speed,
         "pinion_radius": extras["pitch_diameter"] / 2,
-        "gear_radius": extras["wheel_diameter"] / 2,
+        "gear_radius": wheel,
+        "bath_acceleration": gear_speed**2 * (wheel * c.rig.width * extras["module"]) ** (1 / 3),
         "pinion_teeth": extras["teeth"],
         "gear_teeth": extras["teeth"] / extras["ratio"],
         "gear_module": extras["module"],
