@@ -14,6 +14,7 @@ from mixedlub.evaluate.evaluation import CaseDraft, Curve, Evaluated, Evaluation
 from mixedlub.evaluate.uncertainty import Errors, combined, ends_of, interval
 from mixedlub.kinds import columns
 from mixedlub.kinds.disc import reduced_radius
+from mixedlub.laws import film
 from mixedlub.laws.contact import (
     line_hertz_half_width,
     line_hertz_pressure,
@@ -31,8 +32,6 @@ from profiles.errors import InputError
 SOURCE = "Vaishya and Houser 1999, AGMA 99FTMS1, section 3, tables 1 and 3, figures 2 and 3"
 Share = Annotated[Number, Field(ge=0.0, lt=1.0)]
 Size = Annotated[Number, Field(ge=0.0)]
-ELLIPTICITY = (1.0, 8.0)
-"""Source: Hamrock and Dowson 1977. Ellipticity for which the film formula of a point contact holds."""
 
 
 class Meters(Section):
@@ -225,10 +224,10 @@ def _notes(file: TwoDiscFile, case: CaseDraft | None) -> Iterator[str]:
     contact = file.contact
     if contact.geometry == "point" and contact.transverse_radius_mm is not None:
         across = reduced_radius(contact.transverse_radius_mm, "transverse_radius_mm")
-        ellipticity = 1.03 * (across / reduced_radius(contact.radius_mm, "radius_mm")) ** 0.64
-        if not ELLIPTICITY[0] <= ellipticity <= ELLIPTICITY[1]:
-            low, high = ELLIPTICITY
-            yield f"ellipticity {ellipticity:.3g}: the film formula of the case holds from {low:g} to {high:g}"
+        found = float(film.ellipticity(reduced_radius(contact.radius_mm, "radius_mm"), across))
+        low, high = film.ELLIPTICITY
+        if not low <= found <= high:
+            yield f"ellipticity {found:.3g}: the film formula of the case holds from {low:g} to {high:g}"
     if file.meters.drag == "none":
         yield "nothing is taken off the torque; readings with both signs of sliding would separate the drag of bearings"
     if case is None:

@@ -23,6 +23,8 @@ DOWSON_TOYODA = Regression(3.06, 0.69, 0.56, -0.10)
 DOWSON_HIGGINSON = Regression(2.65, 0.70, 0.54, -0.13)
 POINT_EXPONENT = 0.67
 """Of speed in the regression of Hamrock and Dowson."""
+ELLIPTICITY = (1.0, 8.0)
+"""For which that regression holds."""
 ELASTIC = {"moes_load": (2.0, np.inf)}
 """Range of the films of flattened line contacts. Full solutions are within 13 % of Dowson and Toyoda's incompressible
 film there (U 3e-13 to 1e-9, W 3e-5 to 2e-4); below, the law is up to 40 % too thick."""
@@ -138,6 +140,17 @@ def moes(
     return radius * double * moes_line(load / double, pressure_viscosity * reduced_modulus * np.sqrt(double))
 
 
+def ellipticity(radius: np.ndarray, transverse_radius: np.ndarray) -> np.ndarray:
+    """Ellipticity of a point contact as the film regressions take it, k = 1.03 (R_y/R_x)^0.64.
+
+    Source: D. E. Brewe, B. J. Hamrock, J. Lubr. Technol. 99 (1977) 485.
+
+    >>> float(ellipticity(0.02, 0.02))
+    1.03
+    """
+    return np.asarray(1.03 * power(transverse_radius / radius, 0.64))
+
+
 def hamrock_dowson(
     radius: np.ndarray,
     transverse_radius: np.ndarray,
@@ -152,7 +165,7 @@ def hamrock_dowson(
     .. math:: h = 2.69\, R_x\, U^{0.67} G^{0.53} W^{-0.067} (1 - 0.61 e^{-0.73 k}),\quad
               W = \frac{F}{E' R_x^2},\ k = 1.03\,(R_y/R_x)^{0.64}
 
-    Valid for 1 <= k <= 8. Source: B. J. Hamrock, D. Dowson, J. Lubr. Technol. 99 (1977) 264.
+    Valid for `ELLIPTICITY`, 1 <= k <= 8. Source: B. J. Hamrock, D. Dowson, J. Lubr. Technol. 99 (1977) 264.
 
     >>> h = hamrock_dowson(9.525e-3, 9.525e-3, 1.0, 20.0, 0.08, 20e-9, 1.17e11)
     >>> round(float(h) * 1e9)
@@ -160,8 +173,7 @@ def hamrock_dowson(
     """
     speed = viscosity * entrainment_speed / (reduced_modulus * radius)
     group = load / (reduced_modulus * radius**2)
-    ellipticity = 1.03 * power(transverse_radius / radius, 0.64)
-    shape = 1.0 - 0.61 * np.exp(-0.73 * ellipticity)
+    shape = 1.0 - 0.61 * np.exp(-0.73 * ellipticity(radius, transverse_radius))
     modulus = power(pressure_viscosity * reduced_modulus, 0.53)
     return 2.69 * radius * power(speed, POINT_EXPONENT) * modulus * power(group, -0.067) * shape
 

@@ -6,10 +6,12 @@ from collections.abc import Collection, Iterator
 
 import numpy as np
 
+from mixedlub.laws.film import ELLIPTICITY, ellipticity
 from mixedlub.rig.rig import Rig
 from mixedlub.rig.surface import Surface
 from mixedlub.schema import ranges, surface_file
 from mixedlub.schema.findings import Finding, collected, finding
+from mixedlub.schema.system_file import Contact, System
 from profiles.errors import InputError
 
 LEAST_HARD_MODULUS = 50e9
@@ -29,6 +31,8 @@ def implausible(rig: Rig, surfaces: Collection[str] | None = None) -> Iterator[F
     if rig.file.gears is not None:
         yield from rig.sharing.check(rig.gears)
         yield from _backlash(rig)
+    if isinstance(rig.file, System) and rig.file.contact is not None:
+        yield from _ellipticity(rig.file.contact)
     for name in rig.file.surfaces if surfaces is None else surfaces:
         found = _surface(rig, name)
         if found is not None:
@@ -44,6 +48,21 @@ def _backlash(rig: Rig) -> Iterator[Finding]:
             "module, for these profile shifts: check both"
         )
         yield finding("backlash_large", text, "gears.centre_distance_mm")
+
+
+def _ellipticity(contact: Contact) -> Iterator[Finding]:
+    """A point contact whose ellipse is outside the range of the base model's film law."""
+    if contact.geometry != "point" or contact.transverse_radius_mm is None:
+        return
+    along, across = (_reduced(radii) for radii in (contact.radius_mm, contact.transverse_radius_mm))
+    found, (low, high) = float(ellipticity(along, across)), ELLIPTICITY
+    if not low <= found <= high:
+        text = f"the film law of Hamrock and Dowson holds for ellipticities of {low:g} to {high:g}, here {found:.3g}"
+        yield finding("law_extrapolated", text, "contact.transverse_radius_mm")
+
+
+def _reduced(radii: tuple[float, float]) -> np.ndarray:
+    return np.asarray(1.0 / sum(1.0 / r for r in radii))
 
 
 def yields(pressure: np.ndarray, modulus: float) -> np.ndarray:

@@ -7,10 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from mixedlub.gear import GearPair
-from mixedlub.study.plan import Plan
-
-MOST_CONTACT_RATIO = 2.0
-"""Largest contact ratio for which Ohlendorf's loss factor is made."""
+from mixedlub.study.plan import MOST_CONTACT_RATIO, Plan
 
 
 def derived(plan: Plan, pair: GearPair, values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:

@@ -61,6 +61,8 @@ BALANCED = ("asperity_pressure", "full_load_film", "film_load_share", "least_fil
 """What is wanted as well where film and asperities share the load."""
 SOLIDS = ("solid_conductivity", "solid_density", "solid_heat_capacity")
 """Inputs of the surfaces that most studies have alike for all pairings: then what follows is computed once."""
+MOST_CONTACT_RATIO = 2.0
+"""Largest contact ratio for which Ohlendorf's loss factor is made."""
 AREA_ALONE = ("balance", "asperities", "mixture", "heights")
 """Options at whose defaults an effect on the contact area needs no other change."""
 
@@ -266,6 +268,9 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     if idle:
         report(finding("surfaces_unused", f"in no pairing: {', '.join(idle)}", "surfaces"))
     pair, options = rig.gears, file.options
+    if pair.helix_angle == 0.0 and pair.contact_ratio > MOST_CONTACT_RATIO:
+        text = f"holds for contact ratios up to {MOST_CONTACT_RATIO:g}, not {pair.contact_ratio:.4g}; left out"
+        report(finding("loss_factor_left_out", text, "loss_factor_H_V"))
     check_coefficients(options)
     points = rig.mesh(options.path_points, options.face_slices)
     oil = rig.oil()

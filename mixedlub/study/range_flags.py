@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
 from mixedlub.chain.balance import EXACT, overloaded
 from mixedlub.rig.plausibility import yields
+from mixedlub.schema.findings import Finding
 from mixedlub.study.batch import BEYOND, FILM_OVER_WIDTH
 from mixedlub.study.columns import VALID
 from mixedlub.study.plan import Plan
@@ -15,10 +16,15 @@ from roughness.mccool import nayak_parameter
 
 EXTRAPOLATED = "law_extrapolated:"
 """Before the name of an effect or law that is used outside the range in which it holds."""
+OF_SHARING = EXTRAPOLATED + "load_sharing"
+"""Of a law of the load sharing; a note on the gears says which."""
 
 
-def flags(plan: Plan, values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Boolean arrays of the shape of the study by code, gravest first; codes that apply nowhere are left out."""
+def flags(plan: Plan, values: Mapping[str, np.ndarray], notes: Iterable[Finding] = ()) -> dict[str, np.ndarray]:
+    """Boolean arrays of the shape of the study by code, gravest first; codes that apply nowhere are left out.
+
+    ``notes`` are those on the load sharing, whose laws are used outside their range for all conditions or for none.
+    """
     within = np.zeros(plan.shape)
     moments = [np.asarray(plan.inputs[name]).reshape(-1, 1, 1, 1) for name in ("m0", "m2", "m4")]
     with np.errstate(divide="ignore", over="ignore"):
@@ -34,6 +40,8 @@ def flags(plan: Plan, values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]
         "bandwidth_limited": np.broadcast_to(narrow, plan.shape),
         **{EXTRAPOLATED + name.removeprefix(BEYOND): v > 0.0 for name, v in values.items() if name.startswith(BEYOND)},
     }
+    if any(note.code == EXTRAPOLATED.rstrip(":") for note in notes):
+        found[OF_SHARING] = np.ones(plan.shape, dtype=bool)
     return {code: where for code, where in found.items() if where.any()}
 
 

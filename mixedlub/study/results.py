@@ -101,7 +101,7 @@ class Results:
     @cached_property
     def flags(self) -> Mapping[str, np.ndarray]:
         """Where conditions are outside the range of the model, by the code of the finding that says why."""
-        return flags(self.study.plan, self.values)
+        return flags(self.study.plan, self.values, self.study.mesh.notes)
 
     @cached_property
     def outside(self) -> np.ndarray:

@@ -13,7 +13,7 @@ from mixedlub.schema.findings import Finding, finding
 from mixedlub.slots import SLOTS
 from mixedlub.study.batch import FILM_OVER_WIDTH
 from mixedlub.study.plan import Plan, Study
-from mixedlub.study.range_flags import EXTRAPOLATED
+from mixedlub.study.range_flags import EXTRAPOLATED, OF_SHARING
 
 
 class Results(Protocol):
@@ -33,7 +33,7 @@ class Results(Protocol):
 
 def out_of_range(results: Results) -> tuple[Finding, ...]:
     """Findings on conditions outside the validity range of the laws, gravest first; empty where all are within."""
-    return tuple(_finding(results, code, where) for code, where in results.flags.items())
+    return tuple(_finding(results, code, where) for code, where in results.flags.items() if code != OF_SHARING)
 
 
 def _finding(results: Results, code: str, where: np.ndarray) -> Finding:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -212,6 +213,21 @@ def test_what_is_far_off_in_the_system_stands_above_the_answer(make_case: Callab
     file.write_text(text.replace("boundary_friction = 0.1", "boundary_friction = 1.0", 1), encoding="utf-8")
     (note,) = implausible_in(folder)
     assert (note.code, note.place, note.severity) == ("value_unusual", "boundary_friction", Severity.DOUBT)
+
+
+@pytest.mark.parametrize(("across", "told"), [(20.0, []), (4.0, ["law_extrapolated"])])
+def test_an_ellipse_beyond_the_film_law_is_told(
+    across: float, told: list[str], make_case: Callable[..., Path], tmp_path: Path
+) -> None:
+    """Hamrock and Dowson's regression holds for k = 1.03 (R_y/R_x)^0.64 from 1 to 8."""
+    folder = make_case(tmp_path / "case", "film")
+    file = folder / "system.toml"
+    text = file.read_text(encoding="utf-8")
+    body = f"radius_mm = [20.0, 20.0]\ntransverse_radius_mm = [{across}, {across}]\n"
+    changed = re.sub(r"radius_mm = .*\n", body, text)
+    assert changed != text
+    file.write_text(changed, encoding="utf-8")
+    assert codes(implausible_in(folder)) == told
 
 
 @pytest.mark.parametrize(("factor", "alarm"), [(0.5, True), (0.95, False)])

@@ -148,3 +148,20 @@ def test_a_case_says_of_its_rows_what_a_study_says_of_the_same_conditions():
         flagged += "asperities_overloaded" in str(found["validity"].values)
     assert 0 < flagged < len(rows)
     assert f"in {flagged} of {len(rows)} rows" in note.text
+
+
+def test_a_foundation_outside_its_range_is_flagged_in_every_row(write_study):
+    """Sainsot's ring holds for half root angles up to 0.12 rad; those of 17 teeth have 0.13."""
+    sharing = {"model": "ldp", "foundation": "sainsot", "bore_diameter_mm": [30.0, 40.0]}
+    study = read_study(write_study(gears__load_sharing=sharing))
+    results = run_study(study)
+    assert results.flags["law_extrapolated:load_sharing"].all()
+    assert codes(results.findings).count("law_extrapolated") == 1, "that on the pinion, no second one for the rows"
+
+
+def test_a_loss_factor_beyond_its_contact_ratio_is_left_out_and_said(write_study):
+    long = {"teeth": [60, 70], "normal_module_mm": 2.0, "pressure_angle_deg": 15.0, "tip_diameter_mm": None}
+    study = read_study(write_study(**{f"gears__{key}": value for key, value in long.items()}))
+    assert study.pair.contact_ratio > 2.0
+    assert "loss_factor_left_out" in codes(study.notes)
+    assert "loss_factor" not in run_study(study).values
