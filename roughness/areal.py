@@ -138,6 +138,33 @@ def tiles(area: HeightMap, a_side: int = 3) -> list[HeightMap]:
     return [replace(area, heights=part) for row in rows for part in np.array_split(row, a_side, axis=1)]
 
 
+def gaussian_scatter(area: HeightMap, *angles: float) -> np.ndarray:
+    r"""Relative standard deviations of m0, m2 and m4 that maps of this size of a Gaussian surface have.
+
+    .. math:: \frac{\mathrm{sd}(m_n)^2}{m_n^2} = \frac{\sum_q k_q^{2n} P_q^2}{\left(\sum_q k_q^n P_q\right)^2}
+
+    with the periodogram P of the map under a Hann window and the wavenumber k along the angle (rad from the x axis) as
+    differences see it; m2 and m4 are means over several angles. Each ordinate of the periodogram is exponential, so
+    that its square is twice that of the spectrum, which makes up for the two ordinates that are one.
+    Source: M. B. Priestley, Spectral Analysis and Time Series, 1981, section 6.1.
+
+    >>> white = HeightMap(1e-7 * np.random.default_rng(1).standard_normal((128, 128)), 1e-6, 1e-6)
+    >>> gaussian_scatter(white, 0.0).round(3).tolist()   # sqrt(2/N) of N free heights
+    [0.011, 0.014, 0.016]
+    """
+    z = _without_holes(area)
+    rows, columns = (np.hanning(n + 2)[1:-1] for n in z.shape)
+    window = np.outer(rows, columns)
+    power = np.abs(np.fft.fft2((z - z.mean()) * window)) ** 2
+    y, x = (
+        2.0 * np.sin(np.pi * np.fft.fftfreq(n)) / spacing
+        for n, spacing in zip(z.shape, (area.spacing_y, area.spacing_x))
+    )
+    along = [math.cos(a) * x[None, :] + math.sin(a) * y[:, None] for a in angles]
+    weights = (1.0, *(np.mean([k**n for k in along], axis=0) for n in (2, 4)))
+    return np.array([math.sqrt((w * w * power * power).sum()) / (w * power).sum() for w in weights])
+
+
 def _mean_square(values: np.ndarray) -> float:
     return float(np.mean(np.square(values)))
 

@@ -47,13 +47,14 @@ def peklenik_number(across: Sequence[Profile], along: Sequence[Profile]) -> floa
     return float(lengths[0] / lengths[1])
 
 
-def mean_axes(samples: np.ndarray, level: float = 0.9) -> np.ndarray:
+def mean_axes(samples: np.ndarray, level: float = 0.9, least: np.ndarray | float = 0.0) -> np.ndarray:
     r"""Independent changes of the logarithms of means at the ends of an interval, one a row.
 
     ``samples`` has a row for each of n traces (or sampling lengths) and a column for each moment. The covariance of the
     means over their products, :math:`C = \mathrm{cov}(x/\bar x)/n`, is written as :math:`\sum_j v_j v_j^T`; rows are
     :math:`t\,v_j` with Student's t of n - 1 degrees of freedom. A quantity that is linear in the logarithms deviates by
-    the root of the squares of its changes along the rows, which is the t interval of its own n values.
+    the root of the squares of its changes along the rows, which is the t interval of its own n values. ``least`` are
+    relative standard deviations that the means have at least, one a column.
 
     >>> rows = mean_axes(np.array([[0.9, 1.0], [1.0, 1.0], [1.1, 1.0]]))
     >>> np.sqrt((rows**2).sum(axis=0)).round(4).tolist()   # t = 2.92 times 0.1 / sqrt(3)
@@ -65,6 +66,9 @@ def mean_axes(samples: np.ndarray, level: float = 0.9) -> np.ndarray:
     if count < 3:
         raise InputError("their scatter needs at least three", where="traces or sampling lengths", value=count)
     covariance = np.atleast_2d(np.cov(samples / samples.mean(axis=0), rowvar=False)) / count
+    own = np.sqrt(np.diag(covariance))
+    wider = np.divide(np.maximum(own, least), own, out=np.ones_like(own), where=own > 0.0)
+    covariance *= np.outer(wider, wider)
     square, directions = np.linalg.eigh(covariance)
     reach = stdtrit(count - 1, (1.0 + level) / 2.0) * np.sqrt(np.maximum(square, 0.0))
     return np.asarray((directions * reach).T)

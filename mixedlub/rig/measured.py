@@ -82,25 +82,27 @@ class Measured:
         """Changes of the logarithms of the moments at the ends of the band of their scatter, one an axis."""
         from roughness.lay import mean_axes
 
-        groups: list[tuple[Sequence[str], np.ndarray]] = []
+        groups: list[tuple[Sequence[str], np.ndarray, np.ndarray | float]] = []
         if self.area is not None:
             from roughness.areal import tiles
 
             rows = [self._of_map(part) for part in tiles(self.area, TILES)]
-            groups.append((tuple(rows[0]), np.array([list(row.values()) for row in rows])))
+            groups.append(
+                (tuple(rows[0]), np.array([list(row.values()) for row in rows]), self._least_scatter(self.area))
+            )
         if self.across is not None:
-            groups.append((ACROSS, self.across.samples()))
+            groups.append((ACROSS, self.across.samples(), 0.0))
         if self.along is not None:
-            groups.append((ALONG, self.along.samples()[:, 1:]))
+            groups.append((ALONG, self.along.samples()[:, 1:], 0.0))
         found: list[Mapping[str, float]] = []
-        for keys, samples in groups:
+        for keys, samples, least in groups:
             if len(samples) < FEWEST:
                 rule = (
                     "the scatter needs three traces in each direction, or traces of three sampling lengths; "
                     f"here are {len(samples)}: give more traces"
                 )
                 raise InputError(rule, where=f"surfaces.{name}")
-            found += [dict(zip(keys, row, strict=True)) for row in mean_axes(samples, LEVEL).tolist()]
+            found += [dict(zip(keys, row, strict=True)) for row in mean_axes(samples, LEVEL, least).tolist()]
         return tuple(found)
 
     @cached_property
@@ -120,6 +122,15 @@ class Measured:
         if self.isotropic:
             return {"m0": across.m0, "m2": 0.5 * (across.m2 + along.m2), "m4": 0.5 * (across.m4 + along.m4)}
         return {"m0": across.m0, "m2": across.m2, "m4": across.m4, "m2_along": along.m2, "m4_along": along.m4}
+
+    def _least_scatter(self, area: HeightMap) -> np.ndarray:
+        """Relative standard deviations of `_of_map` if heights were Gaussian: parts that share waves scatter less."""
+        from roughness.areal import gaussian_scatter
+
+        across, along = self._angle, self._angle + 0.5 * np.pi
+        if self.isotropic:
+            return gaussian_scatter(area, across, along)
+        return np.concatenate([gaussian_scatter(area, across), gaussian_scatter(area, along)[1:]])
 
     @property
     def by_lengths(self) -> bool:

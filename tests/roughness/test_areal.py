@@ -6,7 +6,7 @@ import pytest
 from profiles import InputError, Profile
 from profiles.image import HeightMap
 from roughness import moments, primary_profile
-from roughness.areal import areal_moments, areal_roughness, tiles
+from roughness.areal import areal_moments, areal_roughness, gaussian_scatter, tiles
 from roughness.mccool import plane_offset, summit_density, summit_sigma
 
 STEP = 1e-6
@@ -133,3 +133,41 @@ def test_a_map_that_gives_no_moments_is_refused(spoil, rule):
 def test_a_filter_that_does_not_fit_a_map_is_refused(keys, rule):
     with pytest.raises(InputError, match=rule):
         areal_roughness(gaussian_map(size=64, longest=40.0, shortest=10.0)[0], **keys)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("longest", [25.0, 90.0, 200.0])
+def test_bands_of_maps_hold_the_true_moments_in_90_percent(longest):
+    """225 maps of 256 points a side, whose nine parts are 3.4 to 0.4 of the longest waves wide."""
+    from mixedlub.rig.measured import Measured
+
+    size, points, held = 3840, 256, []
+    q = np.fft.fftfreq(size)
+    radius = np.hypot(q[:, None], q[None, :])
+    power = np.where((radius >= 1 / longest) & (radius <= 1 / 6), np.maximum(radius, 1e-9) ** -2.6, 0.0)
+    noise = np.fft.fft2(np.random.default_rng(2).standard_normal(power.shape))
+    z = 1e-7 * np.fft.ifft2(np.sqrt(power) * noise).real / np.sqrt(power.mean())
+    slope, share = 2 * np.sin(np.pi * q) / STEP, power.sum(axis=0) / power.sum()
+    truth = {"m0": 1e-14, "m2": 1e-14 * (share * slope**2).sum(), "m4": 1e-14 * (share * slope**4).sum()}
+    for rows in np.split(z, size // points):
+        for heights in np.split(rows, size // points, axis=1):
+            one = Measured(area=HeightMap(heights - heights.mean(), STEP, STEP), isotropic=True)
+            values, axes = one.values(), one.axes("a")
+            reach = {name: np.sqrt(sum(axis[name] ** 2 for axis in axes)) for name in truth}
+            held.append([abs(np.log(values[name] / known)) <= reach[name] for name, known in truth.items()])
+    assert (np.mean(held, axis=0) > 0.88).all()
+    assert (np.mean(held, axis=0) < 0.98).all()
+
+
+def test_scatter_of_a_gaussian_map_is_that_between_maps():
+    """Standard deviation of the moments of 100 maps cut from a large one, 10 of its longest waves wide."""
+    size, points = 1280, 128
+    q = np.fft.fftfreq(size)
+    radius = np.hypot(q[:, None], q[None, :])
+    noise = np.fft.fft2(np.random.default_rng(6).standard_normal(radius.shape))
+    z = 1e-6 * np.fft.ifft2(noise * ((radius > 1 / 13) & (radius < 1 / 4))).real
+    maps = [HeightMap(h, STEP, STEP) for row in np.split(z, 10) for h in np.split(row, 10, axis=1)]
+    found = [areal_moments(one).profile(0.0) for one in maps]
+    values = np.array([(m.m0, m.m2, m.m4) for m in found])
+    predicted = np.mean([gaussian_scatter(one, 0.0) for one in maps], axis=0)
+    assert values.std(axis=0) / values.mean(axis=0) == pytest.approx(predicted, rel=0.2)
