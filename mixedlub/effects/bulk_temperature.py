@@ -12,6 +12,31 @@ LEAST_REMAINING = 0.2
 """Share of the pressure-viscosity coefficient that remains at any temperature rise; keeps its linear fall positive."""
 
 
+def rise_of_teeth(
+    nominal_loss: np.ndarray,
+    reading_scale: np.ndarray,
+    torque: np.ndarray,
+    pinion_speed: np.ndarray,
+    pinion_radius: float,
+    gear_radius: float,
+    face_width: float,
+    *,
+    strength: float,
+    exponent: float,
+    friction: float,
+) -> np.ndarray:
+    """By how much the effect makes the teeth warmer than the oil (K).
+
+    >>> gears = dict(torque=150.0, pinion_speed=314.0, pinion_radius=0.0366, gear_radius=0.0549, face_width=0.014)
+    >>> standard = dict(strength=1.0, exponent=0.72, friction=1.0)
+    >>> [round(float(rise_of_teeth(500.0, scale, **gears, **standard)), 1) for scale in (100.0, 500.0)]
+    [13.3, 13.3]
+    """
+    typical = heating.tooth_rise(reading_scale, pinion_radius, gear_radius, face_width)
+    heat = nominal_loss**friction * (EVEN * torque * pinion_speed) ** (1.0 - friction)
+    return np.asarray(strength * typical * (heat / reading_scale) ** exponent)
+
+
 @effect(
     stage="property",
     acts_on=("viscosity", "pressure_viscosity"),
@@ -34,7 +59,7 @@ LEAST_REMAINING = 0.2
     source="ISO/TR 15144-1, bulk temperature, with n = 0.72",
     fingerprint={"speed": "+", "oil_temperature": "-", "roughness": "+"},
     separated_by="a thermocouple in a tooth, or the same point again with twice the flow of oil",
-    special_cases={"ISO/TR 15144-1": {"exponent": 0.72}},
+    special_cases={"ISO/TR 15144-1": {"exponent": 0.72, "friction": 1.0}},
     applied_after=("viscosity_temperature_law", "viscosity_drift"),
     kinds=("gear_pair",),
 )
@@ -70,8 +95,7 @@ def bulk_temperature(
     >>> round(float(eta), 5), round(float(alpha) * 1e9, 2)   # 13.3 K warmer: at 83.3 degC
     (0.00815, 13.9)
     """
-    typical = heating.tooth_rise(reading_scale, pinion_radius, gear_radius, face_width)
-    heat = nominal_loss**friction * (EVEN * torque * pinion_speed) ** (1.0 - friction)
-    rise = strength * typical * (heat / reading_scale) ** exponent
+    gears = (torque, pinion_speed, pinion_radius, gear_radius, face_width)
+    rise = rise_of_teeth(nominal_loss, reading_scale, *gears, strength=strength, exponent=exponent, friction=friction)
     thinner = oil.warmed_viscosity(viscosity, oil_density, temperature_viscosity, oil_temperature, rise)
     return thinner, pressure_viscosity * np.maximum(1.0 - coefficient_fall * rise, LEAST_REMAINING)

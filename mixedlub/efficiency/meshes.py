@@ -11,6 +11,7 @@ from mixedlub.chain.model import Model
 from mixedlub.gear import LdpSharing
 from mixedlub.slots import SLOTS
 from mixedlub.study import Study, batch
+from mixedlub.study.pieces import split
 from mixedlub.study.plan import Plan, mesh_inputs
 from mixedlub.study.range_flags import EXTRAPOLATED, as_words, flags
 
@@ -79,7 +80,7 @@ def _computed(
     values = {name: np.empty(plan.shape) for name in batch.names(plan)}
     # As many blocks as keep every processor busy to the end.
     most = max(1, -(-torque.size // (2 * batch.processors())))
-    for block, found in batch.run(plan, batch.split(plan.shape, (1, 1, most, 1))):
+    for block, found in batch.run(plan, split(plan.shape, (1, 1, most, 1))):
         for name, part in found.items():
             values[name][block] = part
     index, words = as_words(_of_loss(plan, flags(plan, values)), plan.shape)

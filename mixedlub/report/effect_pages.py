@@ -44,6 +44,15 @@ def share(effect_id: str, rig: str) -> np.ndarray | None:
     return (forward.predict(None, {effect_id: shown(effect)}) - base) / base
 
 
+@cache
+def share_of_law(effect_id: str, law: str, rig: str) -> np.ndarray:
+    """Relative change of each reading of a standard rig by a named law of the effect, as a study takes it."""
+    forward = reference_rigs.forward(rig)
+    effect = next(e for e in forward.effects() if e.id == effect_id)
+    base = forward.predict()
+    return np.asarray((forward.predict(None, {effect_id: effect.law_values(law)}) - base) / base)
+
+
 def changes(effect: Effect, rig: str) -> dict[str, float]:
     """Change of the effect's share from the lowest to the highest levels of each condition, over its largest size.
 
@@ -177,9 +186,24 @@ def _on_rigs(effect: Effect) -> list[str]:
         }
         if effect.id in signatures(rig):
             about["    calibration"] = f"leaves {100 * signatures(rig)[effect.id][1]:.0f} % of it"
+        about |= _of_laws(effect, rig)
         lines += [entry(name, text, _RIG_INDENT) for name, text in about.items()]
     shares = {rig: share(effect.id, rig) for rig in RIGS}
     unable = ", ".join(rig for rig, values in shares.items() if values is None)
     hidden = ", ".join(rig for rig, values in shares.items() if values is not None and not values.any())
     lines += [entry("  cannot act", f"on {unable}", _RIG_INDENT)] if unable else []
     return [*lines, entry("  shows nothing", f"on {hidden}", _RIG_INDENT)] if hidden else lines
+
+
+def _of_laws(effect: Effect, rig: str) -> dict[str, str]:
+    """What each published law of the effect changes on the gears of studies, by the line that says so."""
+    if rig != "gear_pair":
+        return {}
+    own = next(e for e in reference_rigs.forward(rig).effects() if e.id == effect.id)
+    found = []
+    for law in own.laws_within_reach or {"": {}}:
+        low, middle, high = (f"{100 * v:.3g}" for v in np.quantile(share_of_law(effect.id, law, rig), (0.0, 0.5, 1.0)))
+        named = f"{law}: " if law else ""
+        off = low == high == "0"
+        found.append(f"{named}{'nothing without a number' if off else f'{low} to {high} %, half below {middle} %'}")
+    return {"    as published": "; ".join(found)}

@@ -11,11 +11,10 @@ import ctypes
 import itertools
 import os
 import platform
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from dataclasses import replace
 from functools import cache
-from typing import Any
 
 import numpy as np
 
@@ -26,6 +25,7 @@ from mixedlub.laws.contact import asperity_load_ratio, mean_hertz_pressure
 from mixedlub.laws.loss import over_path
 from mixedlub.study.bands import HIGH, LOW, band
 from mixedlub.study.columns import loss_of
+from mixedlub.study.pieces import PIECE_PAIRINGS, PIECE_POINTS, Block, Inputs, reach, split, taken
 from mixedlub.study.plan import Plan
 
 OUTPUTS = (
@@ -56,12 +56,8 @@ FILM_OVER_WIDTH = "film_over_contact_width"
 """Check: the largest film of the path over the width of the Hertz contact there."""
 BEYOND = "beyond_"
 """Before the name of an effect or law: the check that is 1 where it is used outside the range in which it holds."""
-PIECE_POINTS = 80_000
-PIECE_PAIRINGS = 64
 BLOCK_POINTS = 4_000_000
 
-Block = tuple[slice, slice, slice, slice]
-Inputs = Mapping[str, Any]
 Found = dict[str, np.ndarray]
 
 
@@ -69,33 +65,6 @@ def processors() -> int:
     """Processors that this process may use; all of the machine's where the system does not report it."""
     own = getattr(os, "sched_getaffinity", None)
     return len(own(0)) if own is not None else os.cpu_count() or 1
-
-
-def split(shape: tuple[int, ...], reach: tuple[int, ...]) -> list[Block]:
-    """Ranges that cover a grid, each at most ``reach`` long.
-
-    >>> [tuple((s.start, s.stop) for s in b) for b in split((3, 1, 1, 1), (2, 1, 1, 1))]
-    [((0, 2), (0, 1), (0, 1), (0, 1)), ((2, 3), (0, 1), (0, 1), (0, 1))]
-    """
-    along = ([slice(i, min(i + step, n)) for i in range(0, n, step)] for n, step in zip(shape, reach, strict=True))
-    return [(p, o, t, s) for p, o, t, s in itertools.product(*along)]
-
-
-def reach(shape: tuple[int, ...], points: int, most_points: int, most_pairings: int) -> tuple[int, ...]:
-    """Length of a block along each axis: pairings are filled first, then speed, torque, oil temperature.
-
-    >>> reach((21, 1, 3, 6), 48, 80_000, 64), reach((1000, 1, 10, 10), 100, 80_000, 64)
-    ((21, 1, 3, 6), (64, 1, 1, 10))
-    """
-    pairings = min(shape[0], most_pairings, max(1, most_points // points))
-    room = max(1, most_points // (points * pairings))
-    found = [pairings, 1, 1, 1]
-    for axis in (3, 2, 1):
-        found[axis] = min(shape[axis], room)
-        room //= shape[axis]
-        if room < 1:
-            break
-    return tuple(found)
 
 
 def blocks(plan: Plan) -> list[Block]:
@@ -191,17 +160,6 @@ def _part(model: Model, steps: Sequence[Step], want: Sequence[str]) -> Model:
     part = copy.copy(model)
     part.steps, part.want = tuple(steps), tuple(want)
     return part
-
-
-def taken(inputs: Inputs, ranges: Sequence[slice]) -> dict[str, Any]:
-    """The inputs sliced along the leading axes; axes of length one are kept."""
-
-    def part(value: Any) -> Any:
-        if np.ndim(value) != 5:
-            return value
-        return value[tuple(r if n > 1 else slice(None) for r, n in zip(ranges, value.shape))]
-
-    return {name: part(value) for name, value in inputs.items()}
 
 
 def reduced(state: Inputs, plan: Plan) -> Found:

@@ -17,7 +17,8 @@ import numpy as np
 
 from mixedlub.atomic import PARTS, whole
 from mixedlub.origin import code_fingerprint
-from mixedlub.study.batch import Block, Found
+from mixedlub.study.batch import Found
+from mixedlub.study.pieces import Block
 from mixedlub.study.plan import Plan
 
 if TYPE_CHECKING:

@@ -159,9 +159,16 @@ FURTHER = (
         "largest rise of the flanks above their bulk by sliding, after Blok, anywhere in the contact and on the path",
     ),
     Column(
+        "bulk_temperature",
+        "bulk_temperature_C",
+        "temperature of the teeth; only with the effect bulk_temperature",
+        zero=ZERO_CELSIUS,
+    ),
+    Column(
         "contact_temperature",
         "contact_temperature_C",
-        "largest temperature of the flanks: that rise above a bulk as warm as the oil at the inlet",
+        "largest temperature of the flanks: that rise above their bulk, which without the effect bulk_temperature is "
+        "as warm as the oil at the inlet",
         zero=ZERO_CELSIUS,
     ),
 )

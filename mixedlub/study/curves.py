@@ -10,8 +10,8 @@ import numpy as np
 
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.study import checkpoint
-from mixedlub.study.batch import taken
 from mixedlub.study.columns import Column, condition_columns
+from mixedlub.study.pieces import taken
 from mixedlub.study.plan import Study
 from mixedlub.study.results import about_table
 from mixedlub.study.table_files import write_tables

@@ -38,6 +38,7 @@ from mixedlub.study.friction_options import (
     check_oil,
     check_viscosity,
 )
+from mixedlub.study.heat import LOSS, heat_inputs
 from mixedlub.study.heights import HeightTables, height_tables
 from mixedlub.study.options import FURTHER, at_hardness, ignored, study_chain
 from mixedlub.study.origins import by_origin, losing
@@ -61,6 +62,8 @@ BALANCED = ("asperity_pressure", "full_load_film", "film_load_share", "least_fil
 """What is wanted as well where film and asperities share the load."""
 SOLIDS = ("solid_conductivity", "solid_density", "solid_heat_capacity")
 """Inputs of the surfaces that most studies have alike for all pairings: then what follows is computed once."""
+HEAT = "nominal_loss"
+"""Input of effects that read the heat of the mesh."""
 MOST_CONTACT_RATIO = 2.0
 """Largest contact ratio for which Ohlendorf's loss factor is made."""
 AREA_ALONE = ("balance", "asperities", "mixture", "heights")
@@ -284,12 +287,15 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
         **surface_inputs([(surfaces[a], surfaces[b]) for a, b in chosen]),
     }
     _check_film_roughness(file, surfaces)
-    effects, parameters = _effects(file, inputs)
     levels = file.conditions
     shape = (len(chosen), len(levels.oil_temperature_C), len(levels.torque_Nm), len(levels.speed_rpm))
     heights = height_tables(options.heights, rig, surfaces, chosen)
     if heights is not None:
         inputs["height_row"] = heights.rows.reshape(-1, 1, 1, 1, 1)
+    if any(HEAT in e.reads for e in find(sorted(file.effects), "effects")):
+        bare = Model(study_chain(options, {} if heights is None else heights.laws()), tuple(inputs), (LOSS,))
+        inputs |= heat_inputs(bare, inputs, shape, points.position.size)
+    effects, parameters = _effects(file, inputs)
     moved = groups(options.bands, rig, surfaces, chosen, surface_inputs)
     plan = Plan(inputs, options, parameters, shape, points.position.size, moved, heights)
     check_friction(file, plan.model())

@@ -28,6 +28,7 @@ from mixedlub.study.columns import (
     loss_columns,
 )
 from mixedlub.study.derived import derived
+from mixedlub.study.pieces import Block
 from mixedlub.study.plan import Study, counted, factors
 from mixedlub.study.range_flags import as_words, flags
 from mixedlub.study.table_files import write_tables
@@ -264,6 +265,6 @@ def _check_finite(results: Results) -> None:
             raise InputError(rule, where=where)
 
 
-def _fill(values: Mapping[str, np.ndarray], block: batch.Block, found: batch.Found) -> None:
+def _fill(values: Mapping[str, np.ndarray], block: Block, found: batch.Found) -> None:
     for name, part in found.items():
         values[name][block] = part

@@ -14,7 +14,7 @@ from mixedlub.chain.model import Model
 from mixedlub.chain.plain_text import plain_equation
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.effects import catalogue, known_in
-from mixedlub.report.effect_pages import effects_text, fingerprint, lookalikes
+from mixedlub.report.effect_pages import effects_text, fingerprint, lookalikes, share
 from mixedlub.schema.units import dimension
 from profiles.errors import InputError
 from tests.contracts.rigs import DISSIPATED, EFFECTS, RIGS, acting, apply, cases, moved, on_rigs, rig, states
@@ -215,6 +215,17 @@ def test_page_shows_the_fingerprint_on_every_rig_where_it_shows(name: str, effec
     page = " ".join(effects_text(effect_id).split())
     signs = ", ".join(f"{condition} {sign}" for condition, sign in fingerprint(catalogue()[effect_id], name).items())
     assert not signs or f"fingerprint share of the reading with growing {signs}" in page
+
+
+@each
+def test_page_shows_what_each_published_law_changes_on_gears(effect: Effect) -> None:
+    if "gear_pair" not in on_rigs(effect) or not np.any(share(effect.id, "gear_pair")):
+        return
+    page = " ".join(effects_text(effect.id).partition("  gear_pair ")[2].split())
+    told = page.partition("as published ")[2]
+    laws = known_in("gear_pair")[effect.id].laws_within_reach
+    assert told
+    assert all(f"{law}: " in told for law in laws), laws
 
 
 def test_table_lists_every_effect() -> None:

@@ -161,7 +161,7 @@ def test_bands_of_maps_hold_the_true_moments_in_90_percent(longest):
 
 def test_scatter_of_a_gaussian_map_is_that_between_maps():
     """Standard deviation of the moments of 100 maps cut from a large one, 10 of its longest waves wide."""
-    size, points = 1280, 128
+    size = 1280
     q = np.fft.fftfreq(size)
     radius = np.hypot(q[:, None], q[None, :])
     noise = np.fft.fft2(np.random.default_rng(6).standard_normal(radius.shape))

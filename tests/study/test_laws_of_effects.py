@@ -102,3 +102,36 @@ def test_every_named_law_of_a_study_runs(write_study):
         for law in known[name].laws_within_reach:
             found = run_study(read_study(write_study(effects={name: {"law": law}})))
             assert np.isfinite(found["power_loss"]).all(), (name, law)
+
+
+@pytest.mark.literature("ISO/TR 15144-1, 7400 (P/(a b))^0.72 X_S/(1.2 X_Ca) with P in kW, a and b in mm")
+def test_teeth_are_warmer_than_the_oil_by_the_loss_of_each_condition(write_study):
+    base = run_study(read_study(write_study("cold")))
+    study = read_study(write_study(effects={"bulk_temperature": {}}))
+    warm = run_study(study)
+    centre = 1e3 * 0.5 * (17 + 26) * 4.2333333e-3
+    rise = 7400.0 * (1e-3 * base["power_loss"] / (centre * 14.0)) ** 0.72 / 1.95
+    oil = np.array([333.15, 363.15]).reshape(1, -1, 1, 1)
+    assert warm["bulk_temperature"] == pytest.approx(oil + rise, abs=1e-3)
+    assert warm["contact_temperature"] == pytest.approx(warm["bulk_temperature"] + warm["flash_temperature"], abs=1e-9)
+    thinner = study.oil.viscosity(warm["bulk_temperature"]) / study.oil.viscosity(oil)
+    assert (warm["film_thickness"] / base["film_thickness"] > thinner**0.85).all()
+    assert (warm["film_thickness"] < base["film_thickness"]).all()
+
+
+def test_warm_teeth_are_alike_in_blocks(write_study, monkeypatch):
+    file = write_study(effects={"bulk_temperature": {"exponent": 0.9}})
+    whole = run_study(read_study(file))
+    monkeypatch.setattr("mixedlub.study.batch.BLOCK_POINTS", 300)
+    parts = run_study(read_study(file), threads=1)
+    assert parts["power_loss"] == pytest.approx(whole["power_loss"], rel=1e-12)
+
+
+def test_every_physical_effect_on_gears_without_an_order_of_readings_runs(write_study):
+    """Left out are faults of instruments and what follows the sequence of the readings."""
+    coated = {"m0_um2": 0.1, "m2": 0.0025, "m4_per_um2": 0.0036, "coating": {"name": "DLC", "thickness_um": 3.0}}
+    coated["coating"]["thermal_conductivity_W_mK"] = 2.0
+    for e in known_in("gear_pair").values():
+        if e.stage != "measurement" and "sequence" not in e.reads and (not e.kinds or "gear_pair" in e.kinds):
+            found = run_study(read_study(write_study(surfaces={"a": coated}, effects={e.id: {}})))
+            assert np.isfinite(found["power_loss"]).all(), e.id

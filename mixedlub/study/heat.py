@@ -1,0 +1,27 @@
+"""What warms the teeth of a study: the loss of its model without effects, at every condition."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from mixedlub.chain.model import Model
+from mixedlub.effects.bulk_temperature import EVEN
+from mixedlub.study.pieces import PIECE_PAIRINGS, PIECE_POINTS, Inputs, reach, split, taken
+
+LOSS = "power_loss"
+
+
+def heat_inputs(model: Model, inputs: Inputs, shape: tuple[int, int, int, int], points: int) -> dict[str, Any]:
+    """Inputs of effects that read the heat of the mesh, by a model without effects that gives the power loss.
+
+    The loss (W) has an axis for each condition, and bands of traces keep it. Its typical size (W), at which forms of
+    other exponents than the standard's meet, is the share of the middle power that becomes heat.
+    """
+    loss = np.empty(shape)
+    with np.errstate(all="ignore"):
+        for block in split(shape, reach(shape, points, PIECE_POINTS, PIECE_PAIRINGS)):
+            loss[block] = model(taken(inputs, block))[LOSS][..., 0]
+    power = np.asarray(inputs["torque"] * inputs["pinion_speed"])
+    return {"nominal_loss": loss[..., None], "reading_scale": EVEN * float(np.median(power))}
