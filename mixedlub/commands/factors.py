@@ -8,10 +8,10 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.atomic import writing
+from mixedlub.atomic import clear_parts, writing
 from mixedlub.commands.console import echo, input_errors_from, named_folder, note, output_folder, print_findings
 from mixedlub.commands.figure_options import Formats, chosen_formats
-from mixedlub.commands.study import progress_bar
+from mixedlub.commands.study import progress_bar, resumed
 
 NAME = "factors"
 EXAMPLE = "mixedlub new factors --out my_factors && mixedlub factors my_factors/factors.toml"
@@ -32,10 +32,13 @@ def command(
 
     Every combination of the levels, or a random design: table of the runs, Sobol' indices, interactions and main
     effects as CSV and figures.
+
+    An interrupted run resumes when it is started again with the same inputs.
     """
     from mixedlub.report.factor_figures import factor_figures
     from mixedlub.report.style import save
     from mixedlub.study.factor_file import read_factor_file
+    from mixedlub.study.factor_parts import parts_folder
     from mixedlub.study.factor_runs import read_experiment
     from mixedlub.study.factor_tables import WRITTEN, full_factorial, random_design, share_out_of_range, write_tables
 
@@ -52,7 +55,9 @@ def command(
     start = time.perf_counter()
     with progress_bar("computing") as bar:
         random = experiment.file.design.random
-        table, decided = (random_design if random else full_factorial)(experiment, bar)
+        table, decided = (random_design if random else full_factorial)(
+            experiment, resumed(bar), parts_folder(folder, experiment)
+        )
     echo(f"computed in {time.perf_counter() - start:.2f} s")
     with writing(folder) as aside:
         write_tables({"runs" if random else "results": table, **decided.tables()}, aside)
@@ -65,6 +70,7 @@ def command(
         (aside / "factors.toml").write_bytes(file.read_bytes())
         (aside / "study.toml").write_bytes(experiment.study_path.read_bytes())
         origin.write_record(aside, folder)
+    clear_parts(folder)
     outside = share_out_of_range(table)
     if outside > 0.0:
         note(f"{100 * outside:.3g} % of all conditions are outside the model's range, as the table says")

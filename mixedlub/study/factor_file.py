@@ -27,6 +27,15 @@ def _known_response(name: str) -> str:
 class Factors(Section):
     """Factors, each with its levels; in a random design a number varies evenly between its smallest and largest."""
 
+    gears: Names | None = key(
+        "gears, by name or file with a section [gears]; each takes the place of [gears], whose load_sharing stays",
+        None,
+        example=["high_speed_a", "high_speed_b"],
+        alternative=True,
+    )
+    normal_module_mm: Numbers | None = key(
+        "normal modules; tip diameters and centre distance go with them", None, example=[3.0, 4.5], alternative=True
+    )
     oil: Names | None = key(
         "oils, by name or file; each takes the place of [lubricant]", None, example=["n100", "pao100"]
     )
@@ -37,12 +46,6 @@ class Factors(Section):
     face_width_mm: Numbers | None = key("face widths", None, example={"from": 10, "to": 20, "count": 3})
     tip_relief_um: Numbers | None = key(
         "tip relief of both wheels; load_sharing of the study has its length", None, example=[10, 30], alternative=True
-    )
-    gears: Names | None = key(
-        "gears, by name; each takes the place of [gears], whose load_sharing stays",
-        None,
-        example=["high_speed_a", "high_speed_b"],
-        alternative=True,
     )
     pressure_angle_deg: Numbers | None = key("normal pressure angles", None, example=[20, 25], alternative=True)
     helix_angle_deg: Numbers | None = key("helix angles", None, example=[0, 20], alternative=True)

@@ -5,20 +5,22 @@ from __future__ import annotations
 import copy
 import hashlib
 import itertools
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from mixedlub.origin import Origin
+from mixedlub.origin import Origin, code_fingerprint
 from mixedlub.parallel import shared_out
 from mixedlub.rig.rig import Rig
 from mixedlub.schema.findings import collected
 from mixedlub.schema.toml_file import parse, read_toml
-from mixedlub.study.factor_file import OVER, FactorFile
+from mixedlub.study.checkpoint import input_fingerprint
+from mixedlub.study.factor_file import FactorFile
+from mixedlub.study.factor_setters import set_level, traced
 from mixedlub.study.plan import Study, read_study
 from mixedlub.study.results import LEVELS, Results, run_study
 from mixedlub.study.schema import StudyFile
@@ -29,10 +31,6 @@ Run = dict[str, Any]
 """The level of every factor in one run."""
 MOST_ROWS = 2_000_000
 """Most rows of the table of a full factorial."""
-CHUNK = 64
-"""Runs between two reports of progress."""
-MEASURED = {"profile", "traces", "map"}
-"""Keys of a surface that is measured."""
 STEEL = ("coating", "thermal_conductivity_W_mK", "density_kg_m3", "specific_heat_J_kgK")
 """Keys of a surface that stay when its trace is replaced by moments."""
 
@@ -44,6 +42,8 @@ class Experiment:
     file: FactorFile
     path: Path
     content: Mapping[str, Any]
+    fingerprint: str = ""
+    """Of every number and line of code on which the results depend."""
 
     @property
     def levels(self) -> dict[str, tuple[Any, ...]]:
@@ -92,7 +92,7 @@ class Experiment:
         content: dict[str, Any] = copy.deepcopy(dict(self.content))
         for name, level in run.items():
             if name != "replicate":
-                _SETTERS[name](content, level)
+                set_level(content, name, level, self.study_path.parent)
         if "replicate" in run:
             self._resample(content, int(run["replicate"]))
         return content
@@ -102,7 +102,7 @@ class Experiment:
         from roughness.uncertainty import resampled_moments
 
         rig = Rig(parse(StudyFile, content, str(self.study_path)), self.study_path.parent.resolve())
-        for place, (name, surface) in enumerate(_traced(content, "replicate").items()):
+        for place, (name, surface) in enumerate(traced(content, "replicate").items()):
             with collected():
                 drawn = resampled_moments(rig.profile(name), np.random.default_rng((seed, place)))
             body = {key: surface[key] for key in STEEL if key in surface}
@@ -120,10 +120,11 @@ def read_experiment(path: Path, file: FactorFile) -> Experiment:
     content = read_toml(study)
     parse(StudyFile, content, str(study))
     found = Experiment(file, path, content)
+    digest = hashlib.sha256(f"{code_fingerprint()}{found.origin.fingerprint}".encode())
     for name, levels in found.levels.items():
         for level in levels:
-            found.study(found.runs[0] | {name: level})
-    return found
+            digest.update(input_fingerprint(found.study(found.runs[0] | {name: level}).plan).encode())
+    return replace(found, fingerprint=digest.hexdigest())
 
 
 def _at(levels: Sequence[Any], u: float) -> Any:
@@ -142,82 +143,6 @@ def _told(level: Any) -> str:
     return f"{level:g}" if isinstance(level, float) else str(level)
 
 
-def _set_key(*place: str) -> Callable[[dict[str, Any], Any], None]:
-    """The setter of one key within tables, which are made where they are missing."""
-
-    def change(content: dict[str, Any], level: Any) -> None:
-        table = content
-        for name in place[:-1]:
-            table = table.setdefault(name, {})
-        table[place[-1]] = level
-
-    return change
-
-
-def _set_oil(content: dict[str, Any], level: str) -> None:
-    content["lubricant"] = {"oil": level}
-
-
-def _set_gears(content: dict[str, Any], level: str) -> None:
-    kept = {name: content["gears"][name] for name in ("load_sharing",) if name in content["gears"]}
-    content["gears"] = {"preset": level, **kept}
-
-
-def _set_relief(content: dict[str, Any], level: float) -> None:
-    content["gears"].setdefault("load_sharing", {})["tip_relief_um"] = [level, level]
-
-
-def _set_slope(content: dict[str, Any], level: float) -> None:
-    content["gears"].setdefault("load_sharing", {})["profile_slope_deviation_um"] = [level, 0.0]
-
-
-def _set_cutoff(key: str) -> Callable[[dict[str, Any], float], None]:
-    def change(content: dict[str, Any], level: float) -> None:
-        for surface in _traced(content, key).values():
-            surface[key] = level
-
-    return change
-
-
-def _set_condition(key: str) -> Callable[[dict[str, Any], float], None]:
-    def change(content: dict[str, Any], level: float) -> None:
-        content["conditions"][key] = [level]
-
-    return change
-
-
-def _traced(content: Mapping[str, Any], factor: str) -> dict[str, dict[str, Any]]:
-    """The surfaces that are measured."""
-    found = {name: one for name, one in content["surfaces"].items() if MEASURED.intersection(one)}
-    if not found:
-        raise InputError("no surface of the study has a trace", where=f"factors.{factor}")
-    if factor == "replicate":
-        for name, one in found.items():
-            if {"map", "traces_along"}.intersection(one):
-                rule = f"takes traces in one direction, and surfaces.{name} has a map or traces along its lay"
-                raise InputError(rule, where="factors.replicate")
-    return found
-
-
-_SETTERS: Mapping[str, Callable[[dict[str, Any], Any], None]] = {
-    "boundary_friction": _set_key("boundary_friction"),
-    "oil": _set_oil,
-    "friction": _set_key("options", "friction"),
-    "gears": _set_gears,
-    **{
-        key: _set_key("gears", key)
-        for key in ("face_width_mm", "pressure_angle_deg", "helix_angle_deg", "centre_distance_mm")
-    },
-    "load_sharing": _set_key("gears", "load_sharing", "model"),
-    "tip_relief_um": _set_relief,
-    "profile_slope_deviation_um": _set_slope,
-    **{key: _set_key("gears", "load_sharing", key) for key in ("lead_crown_um", "misalignment_um")},
-    **{key: _set_cutoff(key) for key in ("cutoff_mm", "short_cutoff_um")},
-    **{key: _set_condition(key) for key in OVER},
-}
-"""How the level of a factor changes the content of a study file."""
-
-
 def axes(experiment: Experiment, study: Study) -> dict[str, tuple[Any, ...]]:
     """Factors of a full factorial with their levels, pairings and conditions among them, if of two levels or more."""
     conditions = {name: tuple(getattr(study.file.conditions, name)) for name in LEVELS}
@@ -226,14 +151,12 @@ def axes(experiment: Experiment, study: Study) -> dict[str, tuple[Any, ...]]:
     return {name: levels for name, levels in every.items() if len(levels) > 1}
 
 
-def results(experiment: Experiment) -> Iterator[tuple[Run, Results]]:
-    """The result of each run of a full factorial."""
+def refuse_too_many(experiment: Experiment) -> None:
+    """Refuse a full factorial whose table would fill the memory."""
     rows = len(experiment.runs) * experiment.study(experiment.runs[0]).conditions
     if rows > MOST_ROWS:
         rule = f"{len(experiment.runs)} runs give {rows} rows, of at most {MOST_ROWS}; take fewer levels or conditions"
         raise InputError(rule, where=f"{experiment.path}: factors")
-    for run in experiment.runs:
-        yield run, run_study(experiment.study(run))
 
 
 def response_of(experiment: Experiment, found: Results) -> np.ndarray:
@@ -245,18 +168,12 @@ def response_of(experiment: Experiment, found: Results) -> np.ndarray:
     return known[wanted].of(found[known[wanted].output])
 
 
-def mean_responses(experiment: Experiment, progress: Callable[[int, int], None]) -> np.ndarray:
-    """Mean response and share of conditions out of range of each run of a random design, of shape (2, runs)."""
+def mean_responses(experiment: Experiment, runs: Sequence[Run]) -> np.ndarray:
+    """Mean response and share of conditions out of range of runs of a random design, of shape (2, runs)."""
 
     def of_run(run: Run) -> tuple[float, float]:
         with collected():
             found = run_study(experiment.study(run), threads=1)
         return float(response_of(experiment, found).mean()), float(found.outside.mean())
 
-    chunks = [experiment.runs[i : i + CHUNK] for i in range(0, len(experiment.runs), CHUNK)]
-    both: list[tuple[float, float]] = []
-    for done, chunk in enumerate(chunks):
-        progress(done, len(chunks))
-        both += shared_out(of_run, chunk)
-    progress(len(chunks), len(chunks))
-    return np.array(both).T
+    return np.array(shared_out(of_run, runs)).T

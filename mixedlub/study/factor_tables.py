@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -14,9 +13,12 @@ from mixedlub.schema.units import unit_of
 from mixedlub.study import sensitivity
 from mixedlub.study.columns import VALID, VALIDITY, Column
 from mixedlub.study.factor_file import Factors
-from mixedlub.study.factor_runs import Experiment, axes, mean_responses, response_of, results
+from mixedlub.study.factor_parts import in_chunks
+from mixedlub.study.factor_runs import Experiment, Run, axes, mean_responses, refuse_too_many, response_of
+from mixedlub.study.results import run_study
 from mixedlub.study.sensitivity import Indices, MainEffect
 
+Progress = Callable[[int, int], None]
 OF_INDICES = (
     Column("factor", "factor", "what is varied", given_unit="text"),
     Column("first", "first_order", "share of the variance of the response that the factor decides alone"),
@@ -100,31 +102,47 @@ def _column(name: str) -> str:
     return f"factor_{name}"
 
 
-def full_factorial(experiment: Experiment, progress: Any = lambda done, of: None) -> tuple[pd.DataFrame, Decided]:
-    """Every row of every run, and what the factors decide, pairings and conditions among them."""
-    parts, responses, study = [], [], None
-    for done, (run, found) in enumerate(results(experiment)):
-        progress(done, len(experiment.runs))
-        study = found.study
-        rows = found.to_pandas()
-        for place, (name, level) in enumerate(run.items()):
-            rows.insert(place, _column(name), level)
-        parts.append(rows)
-        responses.append(response_of(experiment, found))
-    progress(len(experiment.runs), len(experiment.runs))
-    assert study is not None
-    named = axes(experiment, study)
-    grid = np.array(responses).reshape([len(levels) for levels in named.values()])
+def full_factorial(
+    experiment: Experiment, progress: Progress = lambda done, of: None, parts: Path | None = None
+) -> tuple[pd.DataFrame, Decided]:
+    """Every row of every run, and what the factors decide, pairings and conditions among them.
+
+    With a folder for parts, finished chunks are saved and those of an earlier run are reused.
+    """
+
+    def rows_of(runs: Sequence[Run]) -> pd.DataFrame:
+        tables = []
+        for run in runs:
+            found = run_study(experiment.study(run))
+            response_of(experiment, found)
+            rows = found.to_pandas()
+            for place, (name, level) in enumerate(run.items()):
+                rows.insert(place, _column(name), level)
+            tables.append(rows)
+        return pd.concat(tables, ignore_index=True)
+
+    refuse_too_many(experiment)
+    table = in_chunks(experiment, rows_of, parts, progress)
+    named = axes(experiment, experiment.study(experiment.runs[0]))
+    response = table[experiment.file.design.response].to_numpy()
+    grid = response.reshape([len(levels) for levels in named.values()])
     effects = {name: sensitivity.main_effect_of_grid(grid, i, levels) for i, (name, levels) in enumerate(named.items())}
     decided = _decided(experiment, grid, sensitivity.of_grid(grid), sensitivity.interactions(grid), effects)
-    return pd.concat(parts, ignore_index=True), decided
+    return table, decided
 
 
-def random_design(experiment: Experiment, progress: Any = lambda done, of: None) -> tuple[pd.DataFrame, Decided]:
-    """The runs with their mean responses, and what the factors decide of these."""
+def random_design(
+    experiment: Experiment, progress: Progress = lambda done, of: None, parts: Path | None = None
+) -> tuple[pd.DataFrame, Decided]:
+    """The runs with their mean responses, and what the factors decide of these; ``parts`` as in `full_factorial`."""
     design = experiment.file.design
     assert design.runs is not None
-    response, outside = mean_responses(experiment, progress)
+
+    def rows_of(runs: Sequence[Run]) -> pd.DataFrame:
+        return pd.DataFrame(dict(zip(("response", OUTSIDE), mean_responses(experiment, runs), strict=True)))
+
+    found_rows = in_chunks(experiment, rows_of, parts, progress)
+    response, outside = (found_rows[name].to_numpy() for name in ("response", OUTSIDE))
     runs = pd.DataFrame(experiment.runs)
     base = 2 * design.runs
     effects = {

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from mixedlub.cli import main
-from mixedlub.study import read_study, run_study, sensitivity
+from mixedlub.study import factor_parts, read_study, run_study, sensitivity
 from mixedlub.study.factor_file import read_factor_file
 from mixedlub.study.factor_runs import read_experiment
 from mixedlub.study.factor_tables import full_factorial, random_design
@@ -203,6 +203,10 @@ def test_the_command_writes_tables_and_figures(write_factors, tmp_path, capsys, 
         ({"tip_relief_um": [10, 20]}, {}, 'acts only with model = "ldp"'),
         ({"load_sharing": ["rigid", "ldpp"]}, {}, "ldp"),
         ({"oil": ["n100", "n1000"]}, {}, "n100"),
+        ({"gears": ["fzg_a", "fzg_aa"]}, {}, "fzg_a"),
+        ({"gears": ["fzg_a", "base.tml"]}, {}, "ends in .toml"),
+        ({"gears": ["fzg_a", "none.toml"]}, {}, "none.toml"),
+        ({"normal_module_mm": [4, 0]}, {}, "normal_module_mm"),
         ({"cutoff_mm": [0.25, 0.8]}, {}, "no surface of the study has a trace"),
         ({"replicate": [1, 2]}, {}, "no surface of the study has a trace"),
         ({"torque_Nm": [50, 100]}, {}, "[conditions]"),
@@ -245,3 +249,61 @@ def test_the_result_of_other_factors_stays(write_factors, tmp_path, capsys):
     assert main(["factors", str(other), "--out", out]) == 2
     assert "another file of factors" in " ".join(capsys.readouterr().err.split())
     assert main(["factors", str(other), "--replace", "--out", out]) == 0
+
+
+def test_gears_by_name_and_file_take_the_place_of_those_of_the_study(write_factors, write_study, tmp_path):
+    own = {"teeth": [20, 30], "normal_module_mm": 4.0, "face_width_mm": 15.0}
+    (tmp_path / "own.toml").write_text(f"gears = {toml(own)}\n", encoding="utf-8")
+    table, decided = full_factorial(experiment(write_factors({"gears": ["fzg_c", "own.toml"]})))
+    assert "gears" in decided.names
+    for name, gears in (("fzg_c", {"preset": "fzg_c"}), ("own.toml", own)):
+        by_hand = run_study(read_study(write_study("hand", gears=gears, **FEW)))["power_loss"]
+        rows = table[table["factor_gears"] == name]
+        assert rows["power_loss_W"].to_numpy() == pytest.approx(by_hand.ravel(), rel=1e-12)
+
+
+def test_a_module_scales_the_gears_and_leaves_their_loss_factor(write_factors):
+    tips = {"gears__tip_diameter_mm": [80.5, 118.4], "gears__centre_distance_mm": 91.2}
+    table, _ = full_factorial(experiment(write_factors({"normal_module_mm": [2.0, 4.0]}, **tips)))
+    small, large = (table[table["factor_normal_module_mm"] == module] for module in (2.0, 4.0))
+    assert small["loss_factor_H_V"].to_numpy() == pytest.approx(large["loss_factor_H_V"].to_numpy(), rel=1e-9)
+    assert (small["hertz_pressure_MPa"].to_numpy() / large["hertz_pressure_MPa"].to_numpy()) == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize("factor", [{"gears": ["fzg_a", "fzg_c"]}, {"normal_module_mm": [3, 4]}])
+def test_a_share_table_belongs_to_its_gears(factor, write_factors, tmp_path, capsys):
+    (tmp_path / "share.csv").write_text("torque_Nm,roll_angle_deg,load_share\n100,0,1\n100,90,1\n", encoding="utf-8")
+    path = write_factors(factor, gears__load_sharing={"table": "share.csv"})
+    assert "belongs to its gears" in refused(path, capsys, tmp_path)
+
+
+@pytest.mark.parametrize(("design", "run"), [({}, full_factorial), ({"kind": "sobol", "runs": 2}, random_design)])
+def test_an_interrupted_run_resumes(design, run, write_factors, tmp_path, monkeypatch):
+    monkeypatch.setattr(factor_parts, "MOST_RUNS", 2)
+    varied = experiment(write_factors({"boundary_friction": [0.08, 0.1, 0.12], "face_width_mm": [10, 20]}, design))
+    uninterrupted, _ = run(varied)
+    parts, seen = factor_parts.parts_folder(tmp_path, varied), []
+
+    def stop(done, of):
+        if done == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run(varied, stop, parts)
+    (parts / "runs_0.parquet").write_bytes(b"half")
+    resumed, _ = run(varied, lambda done, of: seen.append(done), parts)
+    assert seen[0] == 1, "the chunk that was kept whole"
+    pd.testing.assert_frame_equal(resumed, uninterrupted)
+
+
+def test_parts_are_gone_when_the_command_is_done(write_factors, tmp_path, monkeypatch):
+    monkeypatch.setattr(factor_parts, "MOST_RUNS", 1)
+    path = write_factors({"face_width_mm": [10, 20]}, pairings={"every": ["mid"]})
+    assert main(["factors", str(path), "--out", str(tmp_path / "o")]) == 0
+    assert not list((tmp_path / "o").glob(".parts-*"))
+
+
+def test_parts_of_other_inputs_are_left(write_factors):
+    first = experiment(write_factors({"face_width_mm": [10, 20]})).fingerprint
+    assert experiment(write_factors({"face_width_mm": [10, 20]})).fingerprint == first
+    assert experiment(write_factors({"face_width_mm": [10, 20]}, boundary_friction=0.11)).fingerprint != first
