@@ -61,6 +61,9 @@ coating_conductivity    | k_c        | W/(m K) | thermal conductivity of the coa
 oil_temperature         | theta_oil  | K       | temperature of the oil at the inlet
 viscosity               | eta_0      | Pa s    | dynamic viscosity at oil temperature and ambient pressure
 pressure_viscosity      | alpha      | 1/Pa    | pressure-viscosity coefficient at oil temperature
+entering_viscosity      | eta_in     | Pa s    | dynamic viscosity of the oil as it enters
+entering_coefficient    | alpha_in   | 1/Pa    | pressure-viscosity coefficient of the oil as it enters
+bulk_rise               | D_theta    | K       | rise of the teeth above the entering oil
 coefficient_fall        | a_theta    | 1/K     | relative fall of the pressure-viscosity coefficient per kelvin
 temperature_viscosity   | beta       | 1/K     | relative fall of viscosity per kelvin
 first_known_temperature | theta_1    | K       | temperature of the first of the two given viscosities
@@ -115,6 +118,7 @@ least_film_share        | L_i        | -       | share of the load below which t
 flash_per_friction      | theta_mu   | K       | rise of the surfaces by sliding per unit of friction coefficient
 flash_temperature       | theta_fl   | K       | largest rise of the surfaces above their bulk in the contact by sliding
 film_rise               | theta_f    | K       | rise of the middle of the film above its walls by shear
+specific_film           | lambda_GF  | -       | local film thickness over mean roughness by which micropitting is rated
 contact_viscosity       | eta_p      | Pa s    | viscosity of the film in the contact, of a sample under pressure
 shear_stress            | tau        | Pa      | shear stress of the film
 fluid_friction          | mu_E       | -       | friction coefficient of the film

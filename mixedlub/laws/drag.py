@@ -111,7 +111,7 @@ def churning_at_high_speed(
 def churning_at_either_speed(
     slow: np.ndarray, fast: np.ndarray, bath_acceleration: np.ndarray, share: float = 1.0
 ) -> np.ndarray:
-    r"""Power of one wheel that dips into oil (W) from the laws of low and of high speed.
+    r"""Power of one wheel that dips into oil, from the laws of low and of high speed (W).
 
     .. math:: P = P_{slow} + x\,\mathrm{clip}\left(\frac{\gamma - 750}{1250 - 750}, 0, 1\right)(P_{fast} - P_{slow})
 

@@ -141,7 +141,7 @@ def moes(
 
 
 def ellipticity(radius: np.ndarray | float, transverse_radius: np.ndarray | float) -> np.ndarray:
-    """Ellipticity of a point contact as the film regressions take it, k = 1.03 (R_y/R_x)^0.64.
+    r"""Ellipticity of a point contact as the film regressions take it (-), :math:`k = 1.03\,(R_y/R_x)^{0.64}`.
 
     Source: D. E. Brewe, B. J. Hamrock, J. Lubr. Technol. 99 (1977) 485.
 

@@ -49,6 +49,10 @@ SPUR = ("load_loss_factor",)
 """Further outputs of spur gears."""
 SHARED = ("mean_asperity_load_share", "film_over_unbalanced")
 """Further outputs where film and asperities share the load."""
+RATED = ("mean_flash",)
+"""Further outputs of a study that states limits of the oil."""
+RATED_FILMS = ("least_specific_film",)
+"""Further outputs where it states one of the film."""
 CHECKS = ("largest_area_ratio",)
 SHARED_CHECKS = ("balance_error", "film_below_its_share")
 """Further checks where film and asperities share the load."""
@@ -91,6 +95,8 @@ def _own_names(plan: Plan) -> tuple[str, ...]:
         *OUTPUTS,
         *(SPUR if plan.spur else ()),
         *losses,
+        *(RATED if plan.safety is not None else ()),
+        *(RATED_FILMS if plan.rates_films else ()),
         *CHECKS,
         FILM_OVER_WIDTH,
         *shared,
@@ -201,6 +207,7 @@ def reduced(state: Inputs, plan: Plan) -> Found:
         "plain_mean_friction": over_path(state["friction"], weight),
         "least_film": np.min(film, axis=-1, keepdims=True, where=everywhere or loaded, initial=np.inf),
         "flash_temperature": largest(state["flash_temperature"]),
+        **_rated(state, loaded, plan),
         **{name: state[name] for name in (*(SPUR if plan.spur else ()), *map(loss_of, plan.losing))},
         **(_shared(state, loaded, mean_pressure) if plan.balanced else {}),
     }
@@ -208,6 +215,17 @@ def reduced(state: Inputs, plan: Plan) -> Found:
         found[BEYOND + name] = np.any(loaded & beyond(state, valid), axis=-1, keepdims=True)
     if plan.friction is not None:
         found[BEYOND + plan.friction.name] = np.any(loaded & plan.friction.outside(state), axis=-1, keepdims=True)
+    return found
+
+
+def _rated(state: Inputs, loaded: np.ndarray, plan: Plan) -> Found:
+    """What limits of a study are held against: the mean flash temperature, and the least film by mean roughness."""
+    if plan.safety is None:
+        return {}
+    found = {"mean_flash": over_path(state["flash_temperature"], state["mean_weight"])}
+    if plan.rates_films:
+        film = state["specific_film"]
+        found["least_specific_film"] = np.min(film, axis=-1, keepdims=True, where=loaded, initial=np.inf)
     return found
 
 

@@ -42,6 +42,7 @@ def input_fingerprint(plan: Plan) -> str:
     for table in () if plan.heights is None else (plan.heights.area, plan.heights.load):
         digest.update(table.tobytes())
     chosen = [plan.options.model_dump(), {k: dict(v) for k, v in plan.parameters.items()}, plan.shape]
+    chosen += [] if plan.safety is None else [plan.safety.model_dump()]
     digest.update(json.dumps(chosen, sort_keys=True).encode())
     return digest.hexdigest()
 

@@ -159,6 +159,32 @@ FURTHER = (
         "largest rise of the flanks above their bulk by sliding, after Blok, anywhere in the contact and on the path",
     ),
     Column(
+        "flash_safety",
+        "scuffing_safety_flash",
+        "rise to the scuffing temperature over the largest rise of the contact, both above the oil, as in "
+        "ISO/TS 6336-20 with friction and flash of this model; only with scuffing_temperature_C",
+    ),
+    Column(
+        "integral_temperature",
+        "integral_temperature_C",
+        "bulk temperature and flash_weight times the mean flash temperature along the path, as in ISO/TS 6336-21 with "
+        "those of this model",
+        zero=ZERO_CELSIUS,
+    ),
+    Column(
+        "integral_safety",
+        "scuffing_safety_integral",
+        "integral scuffing temperature over the integral temperature, in degC; only with "
+        "integral_scuffing_temperature_C",
+    ),
+    Column(
+        "least_specific_film",
+        "micropitting_film_ratio",
+        "least film of ISO/TS 6336-22 on the path over the mean roughness Ra of both surfaces, with pressure, bulk and "
+        "flash temperature of this model; only with permissible_film_ratio",
+    ),
+    Column("micropitting_safety", "micropitting_safety", "that ratio over the permissible one"),
+    Column(
         "bulk_temperature",
         "bulk_temperature_C",
         "temperature of the teeth; only with the effect bulk_temperature",

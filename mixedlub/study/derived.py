@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from inspect import signature
 
 import numpy as np
 
-from mixedlub.chain.model import Law
-from mixedlub.effects.bulk_temperature import rise_of_teeth
 from mixedlub.gear import GearPair
+from mixedlub.laws.oil import ZERO_CELSIUS
+from mixedlub.laws.safety import flash_safety, integral_safety, integral_temperature
+from mixedlub.study.heat import BULK
 from mixedlub.study.plan import MOST_CONTACT_RATIO, Plan
-
-BULK = "bulk_temperature"
-"""Effect that warms the teeth."""
+from mixedlub.study.schema import Safety
 
 
 def derived(plan: Plan, pair: GearPair, values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     """Power taken in, efficiencies, Ohlendorf's loss factor, normalised loss and others, in the shape of the study."""
-    total, power, bulk = values["power_loss"], _input_power(plan), _bulk(plan)
+    total, power = values["power_loss"], _input_power(plan)
+    oil = np.broadcast_to(np.asarray(plan.inputs["oil_temperature"])[..., 0], plan.shape)
+    bulk = oil + np.asarray(plan.inputs["bulk_rise"] + np.zeros(1))[..., 0]
+    contact = bulk + values["flash_temperature"]
     found = {
         "normalised_loss": total / total.max(),
         "input_power": np.broadcast_to(power, plan.shape),
@@ -26,23 +27,32 @@ def derived(plan: Plan, pair: GearPair, values: Mapping[str, np.ndarray]) -> dic
         "tooth_efficiency": 1.0 - (values["mesh_loss"] + values["rolling_loss"]) / power,
         "least_film_parameter": values["least_film"] / values["composite_roughness"],
         "asperity_load_share": np.minimum(values["asperity_load_ratio"], 1.0),
-        "contact_temperature": values["flash_temperature"] + bulk,
+        "contact_temperature": contact,
+        **_rated(plan.safety, values, oil, bulk, contact),
     }
     if BULK in plan.parameters:
-        found["bulk_temperature"] = np.broadcast_to(bulk, plan.shape)
+        found["bulk_temperature"] = bulk
     if plan.spur and pair.contact_ratio <= MOST_CONTACT_RATIO:
         found["loss_factor"] = np.full(plan.shape, pair.loss_factor)
     return found
 
 
-def _bulk(plan: Plan) -> np.ndarray:
-    """Temperature of the teeth (K): that of the oil at the inlet, and the rise by the effect that warms them."""
-    oil = np.asarray(plan.inputs["oil_temperature"])
-    if BULK not in plan.parameters:
-        return oil[..., 0]
-    law: Law = rise_of_teeth
-    read = [plan.inputs[name] for name in signature(law).parameters if name not in plan.parameters[BULK]]
-    return np.asarray(oil + law(*read, **plan.parameters[BULK]))[..., 0]
+def _rated(
+    safety: Safety | None, values: Mapping[str, np.ndarray], oil: np.ndarray, bulk: np.ndarray, contact: np.ndarray
+) -> dict[str, np.ndarray]:
+    """Margins against the limits that a study states; temperatures in K."""
+    found: dict[str, np.ndarray] = {}
+    if safety is None:
+        return found
+    if safety.scuffing_temperature_C is not None:
+        found["flash_safety"] = flash_safety(contact, oil, safety.scuffing_temperature_C + ZERO_CELSIUS)
+    if safety.integral_scuffing_temperature_C is not None and safety.flash_weight is not None:
+        limit = safety.integral_scuffing_temperature_C + ZERO_CELSIUS
+        found["integral_temperature"] = integral_temperature(bulk, values["mean_flash"], safety.flash_weight)
+        found["integral_safety"] = integral_safety(found["integral_temperature"], limit)
+    if safety.permissible_film_ratio is not None:
+        found["micropitting_safety"] = values["least_specific_film"] / safety.permissible_film_ratio
+    return found
 
 
 def _input_power(plan: Plan) -> np.ndarray:

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from inspect import signature
 from typing import Any
 
 import numpy as np
 
-from mixedlub.chain.model import Model
-from mixedlub.effects.bulk_temperature import EVEN
+from mixedlub.chain.model import Law, Model, Parameters
+from mixedlub.effects.bulk_temperature import EVEN, rise_of_teeth
 from mixedlub.study.pieces import PIECE_PAIRINGS, PIECE_POINTS, Inputs, reach, split, taken
 
 LOSS = "power_loss"
+BULK = "bulk_temperature"
+"""Effect that warms the teeth."""
 
 
 def heat_inputs(model: Model, inputs: Inputs, shape: tuple[int, int, int, int], points: int) -> dict[str, Any]:
@@ -25,3 +29,17 @@ def heat_inputs(model: Model, inputs: Inputs, shape: tuple[int, int, int, int], 
             loss[block] = model(taken(inputs, block))[LOSS][..., 0]
     power = np.asarray(inputs["torque"] * inputs["pinion_speed"])
     return {"nominal_loss": loss[..., None], "reading_scale": EVEN * float(np.median(power))}
+
+
+def rating_inputs(inputs: Inputs, parameters: Parameters) -> Mapping[str, Any]:
+    """Oil as it enters, before any effect warms it, and by how much the teeth are warmer than it (K)."""
+    law: Law = rise_of_teeth
+    rise: Any = 0.0
+    if BULK in parameters:
+        read = [inputs[name] for name in signature(law).parameters if name not in parameters[BULK]]
+        rise = law(*read, **parameters[BULK])
+    return {
+        "entering_viscosity": inputs["viscosity"],
+        "entering_coefficient": inputs["pressure_viscosity"],
+        "bulk_rise": rise,
+    }

@@ -12,7 +12,7 @@ from mixedlub import friction
 from mixedlub.chain.balance import balanced
 from mixedlub.chain.base_models import GEAR_LOSS
 from mixedlub.chain.model import Chain, Law, Model
-from mixedlub.laws import contact, heating, loss, oil, pitch_point
+from mixedlub.laws import contact, heating, loss, oil, pitch_point, safety
 from mixedlub.laws.contact import asperity_pressure, mean_hertz_pressure
 from mixedlub.laws.film import dowson_higginson
 from mixedlub.laws.rough_film import film_over_roughness, rough_film
@@ -105,6 +105,8 @@ FURTHER: Chain = (
     ("load_loss_factor", loss.load_loss_factor),
 )
 """Quantities that a study gives beyond those of the base model."""
+RATED: Chain = (("mean_roughness", contact.mean_roughness), ("specific_film", safety.specific_film))
+"""Quantities that it gives as well where it is to hold films against a limit."""
 
 
 def with_friction(base: Chain, law: Law) -> Chain:

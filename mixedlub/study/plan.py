@@ -38,11 +38,11 @@ from mixedlub.study.friction_options import (
     check_oil,
     check_viscosity,
 )
-from mixedlub.study.heat import LOSS, heat_inputs
+from mixedlub.study.heat import LOSS, heat_inputs, rating_inputs
 from mixedlub.study.heights import HeightTables, height_tables
-from mixedlub.study.options import FURTHER, at_hardness, ignored, study_chain
+from mixedlub.study.options import FURTHER, RATED, at_hardness, ignored, study_chain
 from mixedlub.study.origins import by_origin, losing
-from mixedlub.study.schema import Options, Pairings, StudyFile
+from mixedlub.study.schema import Options, Pairings, Safety, StudyFile
 from profiles.errors import InputError, as_path, nearest, refuse_other
 
 WANTED = (
@@ -93,6 +93,7 @@ class Plan:
     points: int
     bands: tuple[Group, ...] = ()
     heights: HeightTables | None = None
+    safety: Safety | None = None
 
     @property
     def effects(self) -> tuple[Effect, ...]:
@@ -109,8 +110,16 @@ class Plan:
     def _model(self, checked: Iterable[str]) -> Model:
         of_friction = () if self.friction is None else self.friction.checked
         of_balance = BALANCED if self.balanced else ()
-        wanted = dict.fromkeys((*WANTED, *of_balance, *self.asperities_read, *of_friction, *checked))
-        return Model((*self.chain(self.options), *FURTHER), tuple(self.inputs), tuple(wanted), self.effects)
+        rated = RATED if self.rates_films else ()
+        of_films = tuple(name for name, _ in rated[-1:])
+        wanted = dict.fromkeys((*WANTED, *of_balance, *self.asperities_read, *of_friction, *checked, *of_films))
+        chain = (*self.chain(self.options), *FURTHER, *rated)
+        return Model(chain, tuple(self.inputs), tuple(wanted), self.effects)
+
+    @property
+    def rates_films(self) -> bool:
+        """Whether films are held against that at which micropitting arises."""
+        return self.safety is not None and self.safety.permissible_film_ratio is not None
 
     @cached_property
     def ranges(self) -> Mapping[str, Mapping[str, tuple[float, float]]]:
@@ -297,7 +306,8 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
         inputs |= heat_inputs(bare, inputs, shape, points.position.size)
     effects, parameters = _effects(file, inputs)
     moved = groups(options.bands, rig, surfaces, chosen, surface_inputs)
-    plan = Plan(inputs, options, parameters, shape, points.position.size, moved, heights)
+    inputs |= rating_inputs(inputs, parameters)
+    plan = Plan(inputs, options, parameters, shape, points.position.size, moved, heights, file.safety)
     check_friction(file, plan.model())
     if plan.balanced and options.mixture == "tallian":
         report(finding("balance_by_area", BY_AREA, "options.mixture"))

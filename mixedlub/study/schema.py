@@ -197,6 +197,33 @@ class Options(_Laws):
         return self
 
 
+class Safety(Section):
+    """Limits of oil and material, by tests, that the study holds its temperatures and films against."""
+
+    scuffing_temperature_C: Number | None = key(
+        "contact temperature at which the oil scuffs, for the flash temperature method", None, example=250.0
+    )
+    integral_scuffing_temperature_C: Number | None = key(
+        "integral temperature at which the oil scuffs; needs flash_weight", None, example=200.0
+    )
+    flash_weight: Annotated[Number, Field(ge=0.0, le=10.0)] | None = key(
+        "C_2, weight of the mean flash temperature in the integral temperature; that of your standard",
+        None,
+        example=1.5,
+    )
+    permissible_film_ratio: Annotated[Number, Field(gt=0.0, le=10.0)] | None = key(
+        "lambda_GFP, film over mean roughness below which the oil lets micropitting arise", None, example=0.3
+    )
+
+    @model_validator(mode="after")
+    def _complete(self) -> Safety:
+        if (self.integral_scuffing_temperature_C is None) != (self.flash_weight is None):
+            raise ValueError("integral_scuffing_temperature_C and flash_weight go together; give both or neither")
+        if self == Safety.model_construct():
+            raise ValueError("holds no limit; give one or leave the section out")
+        return self
+
+
 class StudyFile(RigFile):
     """A study file."""
 
@@ -211,12 +238,25 @@ class StudyFile(RigFile):
         "every torque at every speed and oil temperature; each a list, or { from = LOW, to = HIGH, count = N }"
     )
     options: Options = key("readings of the model on which its authors leave room", Options())
+    safety: Safety | None = key("limits against scuffing and micropitting", None)
     effects: dict[str, dict[str, NumberOrName]] = key(
         "EFFECT = { PARAMETER = VALUE }: physics beyond the base model, as `mixedlub effects` lists it; "
         "law = NAME: a published law; parameters left out: as the first published law has them",
         {},
         example={"churning": {"law": "Changenet and Velex"}},
     )
+
+    @model_validator(mode="after")
+    def _scuffs_above_the_oil(self) -> StudyFile:
+        """Refuse an oil that scuffs at the temperature at which it enters."""
+        hottest = max(self.conditions.oil_temperature_C)
+        for name in ("scuffing_temperature_C", "integral_scuffing_temperature_C"):
+            limit = None if self.safety is None else getattr(self.safety, name)
+            if limit is not None and limit <= hottest:
+                raise ValueError(
+                    f"safety.{name}: must be above the oil of {hottest:g} degC in conditions, not {limit:g}"
+                )
+        return self
 
 
 with_ranges(StudyFile)

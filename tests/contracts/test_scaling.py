@@ -47,6 +47,15 @@ OTHER_ARGUMENTS = {
     "per_stress": (2e-8, "1/Pa"),
     "at_40": (46e-6, "m^2/s"),
     "at_100": (8.7e-6, "m^2/s"),
+    "slow": (20.0, "W"),
+    "fast": (30.0, "W"),
+    "share": (0.7, "-"),
+    "contact_temperature": (430.0, "K"),
+    "bulk_temperature": (360.0, "K"),
+    "mean_flash_temperature": (30.0, "K"),
+    "integral_temperature": (400.0, "K"),
+    "scuffing_temperature": (500.0, "K"),
+    "flash_weight": (1.5, "-"),
 }
 """Arguments of laws that are no words of the glossary: a value and its unit."""
 
