@@ -38,7 +38,7 @@ def test_safeties_are_those_of_their_temperatures_by_hand(rated):
 
 
 def test_cold_contacts_have_the_film_of_dowson_and_higginson_over_the_mean_roughness(write_study):
-    """With hardly any friction there is no flash temperature; 1600 rho G^0.6 U^0.7 W^-0.13 of mm in um at each point."""
+    """Hardly any friction means no flash temperature: 1600 rho G^0.6 U^0.7 W^-0.13 of mm in um at each point."""
     file = write_study(
         safety={"permissible_film_ratio": 0.3}, boundary_friction=1e-4, lubricant__eyring_stress_MPa=0.02
     )
