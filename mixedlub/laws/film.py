@@ -165,7 +165,7 @@ def hamrock_dowson(
     .. math:: h = 2.69\, R_x\, U^{0.67} G^{0.53} W^{-0.067} (1 - 0.61 e^{-0.73 k}),\quad
               W = \frac{F}{E' R_x^2},\ k = 1.03\,(R_y/R_x)^{0.64}
 
-    Valid for `ELLIPTICITY`, 1 <= k <= 8. Source: B. J. Hamrock, D. Dowson, J. Lubr. Technol. 99 (1977) 264.
+    Valid for 1 <= k <= 8. Source: B. J. Hamrock, D. Dowson, J. Lubr. Technol. 99 (1977) 264.
 
     >>> h = hamrock_dowson(9.525e-3, 9.525e-3, 1.0, 20.0, 0.08, 20e-9, 1.17e11)
     >>> round(float(h) * 1e9)
