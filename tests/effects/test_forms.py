@@ -182,6 +182,7 @@ def test_a_helical_wheel_churns_with_flanks_longer_by_its_angle() -> None:
     """Only the flanks grow: by 1/cos(beta), as in the area of Changenet and Velex."""
     wheel = {"gear_radius": 0.05, "face_width": 0.02, "gear_teeth": 25.0, "gears_fitted": 1.0}
     law = {"strength": 1.0, "viscous": 0.21, "surplus": 0.38, "viscosity": 0.017, "oil_density": 850.0}
+    law |= {"second_law": 1.0, "bath_acceleration": 160.0}
     bare, spur, helical = (
         churning(0.0, gear_speed=100.0, gear_module=module, helix_angle=angle, **wheel, **law)
         for module, angle in ((0.0, 0.0), (4e-3, 0.0), (4e-3, np.radians(30.0)))
