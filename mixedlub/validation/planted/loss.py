@@ -309,7 +309,7 @@ EFFECTS = (
          "Seetharaman and Kahraman 2009"),
     Form("churning", "loss", churning_of_splash, (strength(0.0, 20.0),), "Changenet and Velex 2007, slow",
          within=True, holds="up to 750 m/s2"),
-    Form("churning", "loss", churning_past_splash, (strength(0.0, 20.0),), "Changenet and Velex 2007"),
+    Form("churning", "loss", churning_past_splash, (strength(0.0, 20.0),), "Changenet and Velex 2007", within=True),
     Form("churning", "loss", churning_of_standard, (strength(0.0, 20.0),), "ISO/TR 14179-1", within=True),
     Form("churning", "loss", churning_of_boness, (strength(0.0, 20.0), Knob("reynolds", 0.1, 20.0, (0.5, 4.0))),
          "Boness 1989"),
