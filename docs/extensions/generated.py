@@ -46,15 +46,19 @@ def pages() -> dict[str, str]:
 
 def pieces() -> dict[str, str]:
     """Markdown by name that pages include."""
-    battery, rigs = ((scores.FOLDER / name).read_text(encoding="utf-8") for name in ("score.txt", "score_rigs.txt"))
-    gears, others = scores.scores(battery), scores.scores(rigs)
+    files = ("score.txt", "score_rigs.txt", "score_poor.txt")
+    battery, rigs, poor = ((scores.FOLDER / name).read_text(encoding="utf-8") for name in files)
+    gears, others, flawed = scores.scores(battery), scores.scores(rigs), scores.scores(poor)
     return {
         "score_gears": scores.all_rows(gears[scores.TOOL]),
         "missed_gears": scores.missed(gears[scores.TOOL]),
         "baselines": scores.compared(gears, BASELINES),
         "score_rigs": scores.all_rows(others[scores.TOOL]),
         "missed_rigs": scores.missed(others[scores.TOOL]),
-        "by_kind": scores.by_kind(rigs),
+        "by_kind": scores.counts(rigs),
+        "score_poor": scores.all_rows(flawed[scores.TOOL]),
+        "missed_poor": scores.missed(flawed[scores.TOOL]),
+        "by_flaw": scores.counts(poor, "by flaw"),
         "study_keys": _study_keys(),
         "study_columns": _study_columns(),
         "factor_keys": _file_keys("mixedlub.study.factor_file", "FactorFile"),

@@ -85,9 +85,9 @@ def compared(tools: dict[str, dict[str, Row]], names: tuple[str, ...]) -> str:
     return "\n".join(lines)
 
 
-def by_kind(text: str) -> str:
-    """Markdown table of the counts a kind of rig, from the block that starts with ``by kind``."""
-    (block,) = (b for b in text.split("\n\n") if b.startswith("by kind"))
+def counts(text: str, title: str = "by kind") -> str:
+    """Markdown table of the counts a kind of rig, or a flaw, from the block that starts with the title."""
+    (block,) = (b for b in text.split("\n\n") if b.startswith(title))
     rows = [_GAP.split(line.strip()) for line in block.splitlines()]
     lines = [f"| {' | '.join(row)} |" for row in rows]
     return "\n".join([lines[0], "|---" * len(rows[0]) + "|", *lines[1:]])

@@ -20,7 +20,7 @@ from mixedlub.validation.poor import POOR_FIGURES
 from mixedlub.validation.rigs import CONTACTS, KINDS
 from mixedlub.validation.sample_case import Order
 from mixedlub.validation.score import FIGURES, Score, score
-from mixedlub.validation.tables import by_form, by_kind, wrong
+from mixedlub.validation.tables import by_form, counts, wrong
 from mixedlub.validation.worlds.figures import WORLD_FIGURES
 from profiles.errors import InputError
 
@@ -172,8 +172,8 @@ def judge(out: Path, sealed: Sequence[Path], rivals: dict[str, Path] | None = No
     scores |= others
     text = [scores["all"].text(), *(one.text() for one in others.values())]
     text += [
-        by_kind({**pairs, **{name: some for name, some in unnamed.items() if some}}),
-        *([by_kind(flawed)] if flawed else []),
+        counts({**pairs, **{name: some for name, some in unnamed.items() if some}}),
+        *([counts(flawed, "by flaw")] if flawed else []),
         by_form(pairs),
         wrong(pairs),
     ]

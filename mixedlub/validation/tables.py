@@ -1,4 +1,4 @@
-"""Plain text about a scored battery: counts by kind of rig, and every wrong answer."""
+"""Plain text about a scored battery: counts by kind of rig or flaw of the recording, and every wrong answer."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ def _count(hits: Sequence[bool]) -> str:
     return f"{sum(hits)}/{len(hits)}" if hits else "-"
 
 
-def by_kind(pairs: Mapping[str, Sequence[Pair]]) -> str:
-    """Counts by kind, one line a question."""
+def counts(pairs: Mapping[str, Sequence[Pair]], title: str = "by kind") -> str:
+    """Counts of some groups of cases, a column each, one line a question."""
 
     def of(some: Sequence[Pair], *groups: str, clear: bool = False) -> list[Pair]:
         return [(t, a) for t, a in some if t.group in groups and (t.identifiable or not clear)]
@@ -35,9 +35,10 @@ def by_kind(pairs: Mapping[str, Sequence[Pair]]) -> str:
         "every wild reading found": lambda s: [outliers_found(t, a) == 1 for t, a in s if t.outliers],
         "cases with good readings flagged": lambda s: [outliers_false(t, a) > 0 for t, a in s],
     }
-    lines = [f"{'by kind':36s}" + "".join(f"{kind:>17s}" for kind in pairs)]
+    width = max(17, *(len(name) + 2 for name in pairs))
+    lines = [f"{title:36s}" + "".join(f"{name:>{width}s}" for name in pairs)]
     for text, ask in questions.items():
-        lines.append(f"{text:36s}" + "".join(f"{_count(ask(some)):>17s}" for some in pairs.values()))
+        lines.append(f"{text:36s}" + "".join(f"{_count(ask(some)):>{width}s}" for some in pairs.values()))
     return "\n".join(lines) + "\n"
 
 
