@@ -47,7 +47,7 @@ TRIPLE = "triple"
 MOST_DRAWS = 20
 """Draws of three effects, over the number wanted."""
 SECOND_FLAW = 4
-"""Every fourth case has a second flaw."""
+"""Every fourth case with at most two effects has a second flaw."""
 
 
 def _triple(rng: np.random.Generator, partners: Sequence[Partners]) -> tuple[str, ...] | None:
@@ -90,13 +90,16 @@ def _orders(rng: np.random.Generator, family: Family, seed: int, cases: int) -> 
     for place, order in enumerate(ordered(rng, family, dealt)):
         own = {flaws[place]}
         if place % SECOND_FLAW == 0:
-            own.add(others[int(rng.integers(len(others)))])
-        made.append(replace(order, flaws=tuple(sorted(own)), small=FEW in own))
+            more = [name for name in others if name not in own]
+            own.add(more[int(rng.integers(len(more)))])
+        # Without a data sheet there is no stated calibration that could be off.
+        unnamed = order.no_data_sheet and MIS_SET not in own
+        made.append(replace(order, flaws=tuple(sorted(own)), small=FEW in own, no_data_sheet=unnamed))
     return made + triples
 
 
 def plan_poor(seed: int, cases: int, kinds: Sequence[str]) -> list[Order]:
-    """The orders of a battery of poor recordings, half of them gears and discs; each has one flaw, every fourth two."""
+    """The orders of a battery of poor recordings, half of them gears and discs; each has one flaw or two."""
     chosen = families(kinds)
     least = fewest(kinds) + len(chosen)
     if cases < least:

@@ -52,6 +52,8 @@ def test_every_case_has_a_flaw_and_half_are_gears_and_discs():
     assert all(order.flaws for order in orders)
     assert set(Counter(flaw for order in orders for flaw in order.flaws)) == set(FLAWS)
     assert 0.4 < sum(order.kind in CONTACTS for order in orders) / 240 < 0.6
+    assert not any(order.no_data_sheet for order in orders if MIS_SET in order.flaws)
+    assert {len(order.flaws) for order in orders} == {1, 2}
     triples = [order for order in orders if order.label == TRIPLE]
     assert len(triples) >= 30
     assert all(len(set(order.effects)) == 3 and order.flaws == (THREE,) for order in triples)
