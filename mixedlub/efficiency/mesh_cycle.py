@@ -9,9 +9,9 @@ import numpy as np
 
 from mixedlub.chain.model import Model
 from mixedlub.efficiency.gearbox import Gearbox, Losses, StageModel
-from mixedlub.efficiency.meshes import LOCAL
+from mixedlub.efficiency.meshes import LOCAL, conditioned
 from mixedlub.gear import GearPair, LdpSharing, Mesh, at_roll_angle
-from mixedlub.study.plan import mesh_inputs
+from mixedlub.study.plan import HEAT, mesh_inputs
 
 FINE = 128
 """Slices of oblique lines that no contact problem makes costly: each is on the path as a whole or not at all."""
@@ -127,12 +127,14 @@ def _at_points(stage: StageModel, torque: float, speed: float, points: Mesh) -> 
 
     Sliding loss, rolling loss and sliding power (W), friction force on the pinion and normal force (N).
     """
-    plan = stage.study.plan
+    study, plan = stage.study, stage.study.plan
     own, turning = stage.of_pinion(np.array([torque]), np.array([speed]))
     share = points.load_share(own)[None, None, :, None, :]
     with np.errstate(all="ignore"):  # points of no quadrature have no weights for a mean
+        # Heat is that of the whole mesh, whichever points are asked for.
+        whole = conditioned(study, study.mesh.load_share, own, turning) if HEAT in plan.inputs else plan.inputs
         inputs = {
-            **plan.inputs,
+            **whole,
             **mesh_inputs(points, share, own.reshape(1, 1, 1, 1, 1), turning.reshape(1, 1, 1, 1, 1)),
         }
         model = Model(plan.chain(plan.options), tuple(inputs), LOCAL, plan.effects)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -11,8 +12,9 @@ from mixedlub.chain.model import Model
 from mixedlub.gear import LdpSharing
 from mixedlub.slots import SLOTS
 from mixedlub.study import Study, batch
+from mixedlub.study.heat import LOSS, heat_inputs
 from mixedlub.study.pieces import split
-from mixedlub.study.plan import Plan, mesh_inputs
+from mixedlub.study.plan import HEAT, Plan, mesh_inputs
 from mixedlub.study.range_flags import EXTRAPOLATED, as_words, flags
 
 MOST_SOLVED = 40
@@ -74,9 +76,7 @@ def _computed(
     study: Study, shares: Shares, torque: np.ndarray, speed: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, list[str]]:
     """The same of loaded conditions, all at once."""
-    share = shares(torque)[None, None, :, None, :]
-    own = mesh_inputs(study.mesh, share, torque.reshape(1, 1, -1, 1, 1), speed.reshape(1, 1, -1, 1, 1))
-    plan = replace(study.plan, inputs={**study.plan.inputs, **own}, shape=(1, 1, torque.size, 1))
+    plan = replace(study.plan, inputs=conditioned(study, shares, torque, speed), shape=(1, 1, torque.size, 1))
     values = {name: np.empty(plan.shape) for name in batch.names(plan)}
     # As many blocks as keep every processor busy to the end.
     most = max(1, -(-torque.size // (2 * batch.processors())))
@@ -85,6 +85,17 @@ def _computed(
             values[name][block] = part
     index, words = as_words(_of_loss(plan, flags(plan, values)), plan.shape)
     return values["mesh_loss"].ravel(), values["rolling_loss"].ravel(), [words[i] for i in index.ravel()]
+
+
+def conditioned(study: Study, shares: Shares, torque: np.ndarray, speed: np.ndarray) -> dict[str, Any]:
+    """Inputs of the mesh at torques (N m) and speeds (rad/s) of the pinion, along the third axis, with its own heat."""
+    plan, share = study.plan, shares(torque)[None, None, :, None, :]
+    own = mesh_inputs(study.mesh, share, torque.reshape(1, 1, -1, 1, 1), speed.reshape(1, 1, -1, 1, 1))
+    inputs = {**plan.inputs, **own}
+    if HEAT in inputs:
+        bare = Model(plan.chain(plan.options), tuple(inputs), (LOSS,))
+        inputs |= heat_inputs(bare, inputs, (1, 1, torque.size, 1), plan.points)
+    return inputs
 
 
 def _of_loss(plan: Plan, found: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:

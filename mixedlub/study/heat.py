@@ -9,26 +9,39 @@ from typing import Any
 import numpy as np
 
 from mixedlub.chain.model import Law, Model, Parameters
-from mixedlub.effects.bulk_temperature import EVEN, rise_of_teeth
+from mixedlub.effects.bulk_temperature import rise_of_teeth
 from mixedlub.study.pieces import PIECE_PAIRINGS, PIECE_POINTS, Inputs, reach, split, taken
+from profiles.errors import InputError
 
 LOSS = "power_loss"
 BULK = "bulk_temperature"
 """Effect that warms the teeth."""
+EXPONENT = 0.72
+"""Exponent of the heat in ISO/TR 15144-1."""
 
 
 def heat_inputs(model: Model, inputs: Inputs, shape: tuple[int, int, int, int], points: int) -> dict[str, Any]:
     """Inputs of effects that read the heat of the mesh, by a model without effects that gives the power loss.
 
-    The loss (W) has an axis for each condition, and bands of traces keep it. Its typical size (W), at which forms of
-    other exponents than the standard's meet, is the share of the middle power that becomes heat.
+    The loss (W) has an axis for each condition, and bands of traces keep it. The scale (W) at which laws of
+    other exponents than the standard's meet cancels with that of the standard.
     """
     loss = np.empty(shape)
     with np.errstate(all="ignore"):
         for block in split(shape, reach(shape, points, PIECE_POINTS, PIECE_PAIRINGS)):
             loss[block] = model(taken(inputs, block))[LOSS][..., 0]
-    power = np.asarray(inputs["torque"] * inputs["pinion_speed"])
-    return {"nominal_loss": loss[..., None], "reading_scale": EVEN * float(np.median(power))}
+    return {"nominal_loss": loss[..., None], "reading_scale": 1.0}
+
+
+def check_exponent(parameters: Parameters) -> None:
+    """Refuse another exponent of the heat than the standard's: it needs a measured loss at which the two agree."""
+    given = parameters.get(BULK, {}).get("exponent", EXPONENT)
+    if given != EXPONENT:
+        rule = (
+            f"must be {EXPONENT:g}, as in ISO/TR 15144-1: another exponent needs a recorded loss at which it gives the "
+            "rise of the standard, which a computation without recordings does not have"
+        )
+        raise InputError(rule, where=f"effects.{BULK}.exponent", value=given)
 
 
 def rating_inputs(inputs: Inputs, parameters: Parameters) -> Mapping[str, Any]:

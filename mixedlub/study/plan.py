@@ -38,7 +38,7 @@ from mixedlub.study.friction_options import (
     check_oil,
     check_viscosity,
 )
-from mixedlub.study.heat import LOSS, heat_inputs, rating_inputs
+from mixedlub.study.heat import LOSS, check_exponent, heat_inputs, rating_inputs
 from mixedlub.study.heights import HeightTables, height_tables
 from mixedlub.study.options import FURTHER, RATED, at_hardness, ignored, study_chain
 from mixedlub.study.origins import by_origin, losing
@@ -380,6 +380,7 @@ def _effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, 
     known = known_effects(file.effects, "gear_pair", study_chain(file.options), tuple(inputs), "power_loss")
     for effect, name in known.sds:
         raise InputError("a study has no uncertainty; leave it out", where=f"effects.{effect}.{name}_sd")
+    check_exponent(known.values)
     for e in known.effects:
         _tell_defaults(e, file.effects[e.id], known.values[e.id])
     return known.effects, known.values

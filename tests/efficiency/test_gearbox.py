@@ -14,6 +14,7 @@ from mixedlub.efficiency.gearbox import EXCEEDED, MESH
 from mixedlub.efficiency.mesh_cycle import mesh_cycle, mesh_cycles
 from mixedlub.efficiency.meshes import MOST_SOLVED, load_shares
 from mixedlub.efficiency.table import breakdown_table, duty_summary, duty_table, loss_map, map_table, part_table
+from mixedlub.study import read_study, run_study
 from mixedlub.study.columns import VALID
 from tests.efficiency.gearboxes import PARTS, STAGE, gearbox, gearbox_file, written
 
@@ -65,6 +66,27 @@ class TestBalance:
     def test_every_part_loses_power(self, losses: Losses) -> None:
         loaded = losses.torque == 200.0
         assert all(np.all(value[loaded] > 0.0) for value in losses.by_origin.values())
+
+
+class TestHeat:
+    """Teeth warm by the loss of each condition: rises of a study with the same mesh."""
+
+    def test_the_losses_are_those_of_a_study_at_every_condition(self, folder: Path) -> None:
+        warm = gearbox(folder, STAGE | {"effects": {"bulk_temperature": {}}})
+        stage = warm.stages[0]
+        at = {"torque_Nm": (20.0, 120.0), "speed_rpm": (100.0, 3000.0)}
+        file = stage.study.file
+        levels = file.conditions.model_copy(update=at)
+        study = read_study(folder / "efficiency.toml", file.model_copy(update={"conditions": levels}))
+        wanted = run_study(study)
+        torque, speed = (g.ravel() for g in np.meshgrid(at["torque_Nm"], np.array(at["speed_rpm"]) * np.pi / 30.0))
+        losses, _ = stage.losses(torque, speed)
+        expected = wanted["mesh_loss"][0, 0].T.ravel()
+        assert losses["a", "sliding", ""] == pytest.approx(expected, rel=1e-9)
+        cold = gearbox(folder, STAGE | {"effects": {}}).stages[0].losses(torque, speed)[0]["a", "sliding", ""]
+        assert abs(losses["a", "sliding", ""] / cold - 1.0).max() > 3e-3
+        cycle = mesh_cycle(stage, 120.0, speed[-1], 64)
+        assert cycle.sliding.mean() == pytest.approx(expected[-1], rel=2e-3)
 
 
 class TestTorque:

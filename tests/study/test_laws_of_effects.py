@@ -7,6 +7,7 @@ from mixedlub.effects import known_in
 from mixedlub.laws import drag
 from mixedlub.schema.findings import codes
 from mixedlub.study import read_study, run_study
+from profiles.errors import InputError
 
 
 def added(write_study, **effects):
@@ -119,8 +120,17 @@ def test_teeth_are_warmer_than_the_oil_by_the_loss_of_each_condition(write_study
     assert (warm["film_thickness"] < base["film_thickness"]).all()
 
 
+def test_the_rise_of_a_condition_does_not_depend_on_the_others(write_study):
+    alone = {"conditions__torque_Nm": [150.0], "conditions__speed_rpm": [3000.0]}
+    many = {"conditions__torque_Nm": [50.0, 150.0], "conditions__speed_rpm": [500.0, 3000.0]}
+    one, grid = (run_study(read_study(write_study(effects={"bulk_temperature": {}}, **at))) for at in (alone, many))
+    assert grid["bulk_temperature"][..., 1, 1] == pytest.approx(one["bulk_temperature"][..., 0, 0], rel=1e-12)
+    with pytest.raises(InputError, match=r"effects\.bulk_temperature\.exponent.*must be 0\.72"):
+        read_study(write_study(effects={"bulk_temperature": {"exponent": 1.0}}, **many))
+
+
 def test_warm_teeth_are_alike_in_blocks(write_study, monkeypatch):
-    file = write_study(effects={"bulk_temperature": {"exponent": 0.9}})
+    file = write_study(effects={"bulk_temperature": {}})
     whole = run_study(read_study(file))
     monkeypatch.setattr("mixedlub.study.batch.BLOCK_POINTS", 300)
     parts = run_study(read_study(file), threads=1)
