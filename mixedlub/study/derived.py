@@ -17,8 +17,9 @@ from mixedlub.study.schema import Safety
 def derived(plan: Plan, pair: GearPair, values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     """Power taken in, efficiencies, Ohlendorf's loss factor, normalised loss and others, in the shape of the study."""
     total, power = values["power_loss"], _input_power(plan)
-    oil = np.broadcast_to(np.asarray(plan.inputs["oil_temperature"])[..., 0], plan.shape)
-    bulk = oil + np.asarray(plan.inputs["bulk_rise"] + np.zeros(1))[..., 0]
+    inlet = np.broadcast_to(np.asarray(plan.inputs["oil_temperature"])[..., 0], plan.shape)
+    oil = inlet - plan.options.bulk_temperature_rise_K
+    bulk = inlet + np.asarray(plan.inputs["bulk_rise"] + np.zeros(1))[..., 0]
     contact = bulk + values["flash_temperature"]
     found = {
         "normalised_loss": total / total.max(),

@@ -5,6 +5,7 @@ import pytest
 
 from mixedlub.cli import main
 from mixedlub.study import read_study, run_study
+from profiles.errors import InputError
 
 LIMITS = {
     "scuffing_temperature_C": 250.0,
@@ -35,6 +36,21 @@ def test_safeties_are_those_of_their_temperatures_by_hand(rated):
     assert ((mean_flash > 0.0) & (mean_flash < flash)).all()
     ratio = table["micropitting_film_ratio"] / 0.3
     assert table["micropitting_safety"].to_numpy() == pytest.approx(ratio.to_numpy(), rel=1e-12)
+
+
+def test_a_stated_rise_of_the_bulk_counts_from_the_oil(write_study):
+    """S_B by hand with the oil as it enters the gears."""
+    file = write_study(effects=WARM, safety=LIMITS, options={"bulk_temperature_rise_K": 30.0})
+    table = run_study(read_study(file)).to_pandas()
+    oil, contact = (table[c].to_numpy() for c in ("oil_temperature_C", "contact_temperature_C"))
+    assert (table["bulk_temperature_C"] > oil + 30.0).all()
+    assert table["scuffing_safety_flash"].to_numpy() == pytest.approx((250.0 - oil) / (contact - oil), rel=1e-9)
+
+
+def test_oil_warmed_to_its_limit_is_refused(write_study):
+    with pytest.raises(InputError, match="oil of 120"):
+        safety = {"scuffing_temperature_C": 110.0}
+        read_study(write_study(safety=safety, options={"bulk_temperature_rise_K": 30.0}))
 
 
 def test_cold_contacts_have_the_film_of_dowson_and_higginson_over_the_mean_roughness(write_study):
