@@ -48,9 +48,9 @@ def test_a_stated_rise_of_the_bulk_counts_from_the_oil(write_study):
 
 
 def test_oil_warmed_to_its_limit_is_refused(write_study):
+    file = write_study(safety={"scuffing_temperature_C": 110.0}, options={"bulk_temperature_rise_K": 30.0})
     with pytest.raises(InputError, match="oil of 120"):
-        safety = {"scuffing_temperature_C": 110.0}
-        read_study(write_study(safety=safety, options={"bulk_temperature_rise_K": 30.0}))
+        read_study(file)
 
 
 def test_cold_contacts_have_the_film_of_dowson_and_higginson_over_the_mean_roughness(write_study):
