@@ -44,16 +44,21 @@ class Pattern:
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """Friction force over the cycle (M,), and friction coefficients at the points of the path and on average."""
+    """Friction force over the cycle (M,), and friction coefficients at the points of the path and on average.
+
+    Of each ``sd``, ``sd_own`` is the part that the turns tell.
+    """
 
     force: np.ndarray
     force_sd: np.ndarray
+    force_sd_own: np.ndarray
     fitted: np.ndarray
     friction: np.ndarray
     friction_sd: np.ndarray
     friction_sd_own: np.ndarray
     mean: float
     mean_sd: float
+    mean_sd_own: float
     misfit: float
 
 
@@ -121,18 +126,20 @@ def friction_of_cycle(
     inverse = np.linalg.pinv(design)
     friction, moved = inverse @ _as_real(harmonics), _as_real(errors) @ inverse.T
     of_load = friction * meters.normal_force
-    own_sd = np.sqrt((moved[: len(own)] ** 2).sum(axis=0))
+    of_turns = moved[: len(own)]
     fitted = over_period(_as_complex(design @ friction), count)
     force = over_period(harmonics, count)
     return Found(
         force=force,
         force_sd=np.sqrt((over_period(errors, count) ** 2).sum(axis=0)),
+        force_sd_own=np.sqrt((over_period(own, count) ** 2).sum(axis=0)),
         fitted=fitted,
         friction=friction,
         friction_sd=np.sqrt((moved**2).sum(axis=0) + of_load**2),
-        friction_sd_own=own_sd,
+        friction_sd_own=np.sqrt((of_turns**2).sum(axis=0)),
         mean=float(pattern.work @ friction),
         mean_sd=float(np.sqrt(((moved @ pattern.work) ** 2).sum() + (pattern.work @ of_load) ** 2)),
+        mean_sd_own=float(np.sqrt(((of_turns @ pattern.work) ** 2).sum())),
         misfit=float(np.sqrt(((force - fitted) ** 2).mean())),
     )
 

@@ -15,7 +15,7 @@ from mixedlub.evaluate.evaluation import CaseDraft, Curve, Evaluated, Evaluation
 from mixedlub.evaluate.frequency_response import Response, division
 from mixedlub.evaluate.mesh_force import Found, Meters, cycle_pattern, friction_of_cycle
 from mixedlub.evaluate.mesh_recording import MeshRecording, SpurGearFile, mesh_friction_case
-from mixedlub.evaluate.synchronous import Average, cycle_average
+from mixedlub.evaluate.synchronous import Average, cycle_average, few_turns
 from mixedlub.evaluate.uncertainty import ends_of, interval
 from mixedlub.rig.build import gear_pair, sharing
 from mixedlub.schema.findings import collected
@@ -202,8 +202,10 @@ def run(file: OffLineFile, path: Path) -> Evaluated:
         pattern = cycle_pattern(pair, shared, one.torque_Nm, first, points, SAMPLES)
         found = friction_of_cycle(average, divided, pattern, coupling * line, meters, name)
         forces.append(_force_table(name, one, found, average))
-        local.append(_local_table(name, one, found, pattern.roll_angle))
-        summary.append(_summary(name, one, found, divided.inverse.size - 1) | {"coupling_percent": 100.0 * leak})
+        wider = few_turns(average.turns)
+        local.append(_local_table(name, one, found, pattern.roll_angle, wider))
+        harmonics = divided.inverse.size - 1
+        summary.append(_summary(name, one, found, harmonics, wider) | {"coupling_percent": 100.0 * leak})
     tables = {
         "friction_force": pd.concat(forces, ignore_index=True),
         "friction": pd.concat(local, ignore_index=True),
@@ -223,27 +225,28 @@ def _force_table(name: str, one: MeshRecording, found: Found, average: Average) 
         "shaft_angle_deg": average.angle,
         "roll_angle_deg": one.roll_angle_at_pulse_deg + average.angle,
         "off_line_displacement_um": average.mean[:, 0],
-        **interval("friction_force_N", found.force, found.force_sd),
+        **interval("friction_force_N", found.force, found.force_sd, found.force_sd_own, few_turns(average.turns)),
         "fitted_friction_force_N": found.fitted,
     }
     return pd.DataFrame(columns)[:: max(1, average.angle.size // 128)]
 
 
-def _local_table(name: str, one: MeshRecording, found: Found, roll_angle: np.ndarray) -> pd.DataFrame:
+def _local_table(name: str, one: MeshRecording, found: Found, roll_angle: np.ndarray, wider: float) -> pd.DataFrame:
     return pd.DataFrame(
         {
             "recording": name,
             "torque_Nm": one.torque_Nm,
             "speed_rpm": one.speed_rpm,
             "roll_angle_deg": roll_angle,
-            **interval("friction_coefficient", found.friction, found.friction_sd),
+            **interval("friction_coefficient", found.friction, found.friction_sd, found.friction_sd_own, wider),
             "friction_coefficient_sd_own": found.friction_sd_own,
         }
     )
 
 
-def _summary(name: str, one: MeshRecording, found: Found, harmonics: int) -> dict[str, Any]:
-    mean = interval("mean_friction", np.array(found.mean), np.array(found.mean_sd))
+def _summary(name: str, one: MeshRecording, found: Found, harmonics: int, wider: float) -> dict[str, Any]:
+    own = np.array(found.mean_sd_own)
+    mean = interval("mean_friction", np.array(found.mean), np.array(found.mean_sd), own, wider)
     return {
         "recording": name,
         "torque_Nm": one.torque_Nm,

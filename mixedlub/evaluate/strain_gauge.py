@@ -15,7 +15,7 @@ from pydantic import Field
 from mixedlub.evaluate.evaluation import CaseDraft, Curve, Evaluated, Evaluation, Panel
 from mixedlub.evaluate.influence import Influence, fit_influence
 from mixedlub.evaluate.mesh_recording import MeshRecording, SpurGearFile, mesh_friction_case
-from mixedlub.evaluate.synchronous import Average, synchronous_average
+from mixedlub.evaluate.synchronous import Average, few_turns, synchronous_average
 from mixedlub.evaluate.tooth_forces import (
     Forces,
     Meshing,
@@ -176,7 +176,7 @@ def run(file: StrainGaugeFile, path: Path) -> Evaluated:
                 f"recording {name}: friction forces moved by {', '.join(f'{o:.3g}' for o in offset)} N to be centred; "
                 "nothing that differs between approach and recess alone can be found in them"
             )
-        parts.append(_table(name, one, forces, pair, file.gauges.wheel))
+        parts.append(_table(name, one, forces, pair, file.gauges.wheel, few_turns(average.turns)))
         summary.append(_summary(name, one, forces, meshing, pair, average, offset))
     table = pd.concat(parts, ignore_index=True)
     tables = {"forces": table, "recordings": pd.DataFrame(summary), "influence": _influence_table(influence, meshing)}
@@ -198,7 +198,7 @@ def _doubts(name: str, forces: Forces, nominal: float) -> Iterator[str]:
         yield f"recording {name}: normal force {ratio:.3g} of torque over base radius; the source has it within 3 %"
 
 
-def _table(name: str, one: MeshRecording, forces: Forces, pair: GearPair, wheel: str) -> pd.DataFrame:
+def _table(name: str, one: MeshRecording, forces: Forces, pair: GearPair, wheel: str, wider: float) -> pd.DataFrame:
     """One row an angle and instrumented tooth in contact."""
     way = np.radians(forces.roll_angle) * pair.base_radius[0 if wheel == "pinion" else 1]
     pinion = way if wheel == "pinion" else pair.line_of_action_length - way
@@ -213,9 +213,9 @@ def _table(name: str, one: MeshRecording, forces: Forces, pair: GearPair, wheel:
         "single_contact": forces.single,
         "sliding_speed_m_s": omega * (pinion - other),
         "condition_number": forces.condition,
-        **interval("normal_force_N", forces.value[:, 0], forces.sd(0)),
-        **interval("friction_force_N", forces.value[:, 1], forces.sd(1)),
-        **interval("friction_coefficient", value, combined(sd)),
+        **interval("normal_force_N", forces.value[:, 0], forces.sd(0), forces.sd_own(0), wider),
+        **interval("friction_force_N", forces.value[:, 1], forces.sd(1), forces.sd_own(1), wider),
+        **interval("friction_coefficient", value, combined(sd), noise_of(sd), wider),
         "friction_coefficient_sd_own": noise_of(sd),
     }
     return pd.DataFrame(found)
@@ -233,13 +233,14 @@ def _summary(
     """One row a recording: friction of single contact weighted with load and sliding, normal force against torque."""
     mean, sd = mean_friction(forces, meshing)
     nominal = one.torque_Nm / pair.base_radius[0]
+    found = interval("mean_friction", np.array(mean), combined(sd), noise_of(sd), few_turns(average.turns))
     return {
         "recording": name,
         "torque_Nm": one.torque_Nm,
         "speed_rpm": one.speed_rpm,
         "oil_temperature_C": one.oil_temperature_C,
         "revolutions": average.turns,
-        **{k: float(v) for k, v in interval("mean_friction", np.array(mean), combined(sd)).items()},
+        **{k: float(v) for k, v in found.items()},
         "normal_force_over_nominal": float(forces.value[forces.single, 0].mean() / nominal),
         "largest_condition_number": float(forces.condition.max()),
         "removed_friction_force_N": float(np.mean(offset)),

@@ -22,7 +22,7 @@ class Average:
 
     ``errors`` (N, M, S) are independent errors of the mean, one a turn, as `errors_of_mean` gives them. They keep how
     errors of neighbouring angles and of several signals go together. ``spacing`` is the angle from sample to sample,
-    over which linear interpolation blurs what happens at once.
+    over which linear interpolation blurs what happens at once. Intervals are wider by `few_turns`.
     """
 
     angle: np.ndarray
@@ -38,8 +38,7 @@ class Average:
     @property
     def sd(self) -> np.ndarray:
         """Standard deviation of the mean of each signal (S,), the median over the angles."""
-        widened = np.median(np.sqrt((self.errors**2).sum(axis=0)), axis=0)
-        return np.asarray(widened / few_turns(self.turns))
+        return np.asarray(np.median(np.sqrt((self.errors**2).sum(axis=0)), axis=0))
 
 
 def few_turns(turns: int) -> float:
@@ -56,11 +55,11 @@ def few_turns(turns: int) -> float:
 def errors_of_mean(each: np.ndarray) -> np.ndarray:
     """Independent errors of the mean over the turns, from the signals of each turn (N, ...).
 
-    The deviation of each turn over sqrt(N (N - 1)), wider by `few_turns`, so that 1.645 times the root of their sum of
-    squares is the 90 % interval. What comes again in every turn is no error of the mean.
+    The deviation of each turn over sqrt(N (N - 1)): the root of their sum of squares is the standard deviation of the
+    mean. What comes again in every turn is no error of the mean.
     """
     turns = len(each)
-    return (each - each.mean(axis=0)) * (few_turns(turns) / np.sqrt(turns * (turns - 1)))
+    return (each - each.mean(axis=0)) / np.sqrt(turns * (turns - 1))
 
 
 def synchronous_average(

@@ -74,6 +74,10 @@ class Forces:
         """Standard deviation of the normal (0) or the friction force (1)."""
         return combined({name: moved[:, which] for name, moved in self.errors.items()})
 
+    def sd_own(self, which: int) -> np.ndarray:
+        """Its part by the noise of the recording, which the turns tell."""
+        return noise_of({name: moved[:, which] for name, moved in self.errors.items()})
+
 
 def forces_of(
     influence: Influence, meshing: Meshing, first: np.ndarray, average: Average, meters: Meters, name: str

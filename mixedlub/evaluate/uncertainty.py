@@ -42,13 +42,19 @@ def combined(budget: Mapping[str, np.ndarray]) -> np.ndarray:
     return np.sqrt(sum((np.asarray(sd) ** 2 for sd in budget.values()), np.array(0.0)))
 
 
-def interval(name: str, value: np.ndarray, sd: np.ndarray) -> dict[str, np.ndarray]:
+def interval(
+    name: str, value: np.ndarray, sd: np.ndarray, own: np.ndarray | float = 0.0, wider: float = 1.0
+) -> dict[str, np.ndarray]:
     """Columns of a value with its standard deviation and 90 % interval.
 
-    >>> list(interval("mean_friction", np.array([0.04]), np.array([0.002])))
-    ['mean_friction', 'mean_friction_sd', 'mean_friction_low90', 'mean_friction_high90']
+    ``own`` is the part of ``sd`` that few readings tell: the interval has it ``wider`` times as large, the standard
+    deviation as it is.
+
+    >>> found = interval("mean_friction", np.array([0.04]), np.array([0.002]), own=np.array([0.002]), wider=2.0)
+    >>> print({name: round(float(one[0]), 4) for name, one in found.items()})
+    {'mean_friction': 0.04, 'mean_friction_sd': 0.002, 'mean_friction_low90': 0.0334, 'mean_friction_high90': 0.0466}
     """
-    half = NORMAL_90 * np.asarray(sd)
+    half = NORMAL_90 * np.sqrt(np.square(sd) + (wider**2 - 1.0) * np.square(own))
     return {name: value, f"{name}_sd": sd, f"{name}_low90": value - half, f"{name}_high90": value + half}
 
 

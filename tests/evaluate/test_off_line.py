@@ -79,6 +79,17 @@ def test_slow_gears_on_a_spring_need_its_stiffness_alone(tmp_path):
     )
 
 
+def test_few_turns_widen_the_ends_of_intervals_and_no_standard_deviation(tmp_path):
+    """Student's t of one degree of freedom over the normal distribution is 6.314 / 1.645."""
+    tables, _ = bench.recorded(replace(RIG, turns=2), 1)
+    found = found_of(tmp_path, tables)
+    rows = found.tables["friction"]
+    sd, own = (rows[f"friction_coefficient_sd{part}"].to_numpy() for part in ("", "_own"))
+    half = (rows["friction_coefficient_high90"] - rows["friction_coefficient_low90"]).to_numpy() / 2.0
+    assert half**2 == pytest.approx(1.645**2 * (sd**2 - own**2) + (6.314 * own) ** 2, rel=1e-3)
+    assert found.case.columns["friction_coefficient_sd"] == pytest.approx(own)
+
+
 def test_run_out_and_zero_do_not_reach_centred_friction(tmp_path):
     only = replace(SILENT, run_out=20.0, zero=5.0)
     tables, _ = bench.recorded(replace(RIG, errors=only, turns=2), 4)

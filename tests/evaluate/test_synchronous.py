@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mixedlub.evaluate.synchronous import cycle_average, synchronous_average
+from mixedlub.evaluate.synchronous import cycle_average, errors_of_mean, few_turns, synchronous_average
 from mixedlub.evaluate.uncertainty import NORMAL_90
 from profiles.errors import InputError
 
@@ -39,7 +39,8 @@ def share_held(turns, runs, average):
         away, errors = found.mean[:, 0] - real, found.errors[:, :, 0]
         ends = [away.mean(), *away[1:8:2]]
         widths = [errors.mean(axis=1), *errors.T[1:8:2]]
-        held.append([abs(a) < NORMAL_90 * np.sqrt((w**2).sum()) for a, w in zip(ends, widths, strict=True)])
+        wide = NORMAL_90 * few_turns(turns)
+        held.append([abs(a) < wide * np.sqrt((w**2).sum()) for a, w in zip(ends, widths, strict=True)])
     return np.mean(held, axis=0)
 
 
@@ -56,6 +57,14 @@ def test_intervals_of_three_turns_hold_nine_times_in_ten(average):
 def test_intervals_hold_nine_times_in_ten(turns, average):
     held = share_held(turns, 1000, average)
     assert np.all((held >= 0.865) & (held <= 0.935)), held
+
+
+@pytest.mark.parametrize("turns", [2, 3, 5])
+def test_errors_of_the_mean_are_as_large_as_the_mean_scatters(turns):
+    """Not wider for few turns: a column of standard deviations says by how much, an interval is wider."""
+    each = np.random.default_rng(turns).standard_normal((turns, 20_000))
+    stated, real = (errors_of_mean(each) ** 2).sum(axis=0).mean(), each.mean(axis=0).var()
+    assert stated / real == pytest.approx(1.0, rel=0.05)
 
 
 def test_run_out_is_no_error_of_a_mesh_cycle():
