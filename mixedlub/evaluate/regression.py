@@ -12,8 +12,15 @@ import pandas as pd
 from scipy.stats import norm
 
 from mixedlub.condensed.law_file import friction_file
-from mixedlub.condensed.regression import Regression
-from mixedlub.condensed.stepwise import FEWEST, PER_TERM, least_squares, measured_regression, varied
+from mixedlub.condensed.regression import Regression, design_of
+from mixedlub.condensed.stepwise import (
+    FEWEST,
+    PER_TERM,
+    is_determined,
+    least_squares,
+    measured_regression,
+    varied,
+)
 from mixedlub.evaluate.evaluation import BEYOND_VISCOSITY, Curve, Evaluated, Evaluation, Panel, file_name
 from mixedlub.evaluate.two_disc import hertz
 from mixedlub.friction.condensed import INPUTS, OIL
@@ -30,6 +37,9 @@ from mixedlub.schema.toml_file import named_file
 from profiles.errors import InputError
 
 SOURCE = "H. Xu, PhD thesis, Ohio State University, 2005, chapter 3"
+CHOSEN = (
+    "the readings chose the terms: the intervals and p-values of terms would hold only had they been named beforehand"
+)
 BOTH, FIRST, SECOND = "both signs", "first faster", "second faster"
 LEAST = 4 * PER_TERM
 """Judgement. Readings of one sign of sliding that are worth a law of their own."""
@@ -142,7 +152,7 @@ def run(file: RegressionFile, path: Path) -> Evaluated:
     notes = [str(one) for one in dict.fromkeys(findings)]
     if not slides.all():
         notes.append(f"readings without sliding are left out: {int((~slides).sum())}")
-    notes += _constant(values)
+    notes += [*_constant(values), CHOSEN]
     tables = {
         "terms": pd.concat([_terms(law) for law in laws], ignore_index=True),
         "readings": pd.concat([_readings(law, table) for law in laws], ignore_index=True),
@@ -160,7 +170,7 @@ def _constant(values: dict[str, np.ndarray]) -> Iterator[str]:
 
 
 def _terms(law: Law) -> pd.DataFrame:
-    """A row a term of a law, with its 90 % interval."""
+    """A row a term of a law, with its 90 % interval, which would hold only had the terms been named beforehand."""
     from scipy.stats import t
 
     found = law.found.terms
@@ -187,10 +197,22 @@ def _fit(law: Law, table: Table) -> dict[str, Any]:
     row: dict[str, Any] = {"law": law.name, **law.found.fit}
     row |= {end: law.found.coefficients[end] for one in INPUTS for end in one.ends}
     if first.any() and not first.all():
-        left = law.found.table["residual_of_log"].to_numpy()
-        fit = least_squares(pd.DataFrame({"level": 1.0, "first": first.astype(float)}), left)
-        row |= {"first_less_second_of_log": float(fit.params["first"]), "signs_p_value": float(fit.pvalues["first"])}
+        row |= _signs(law, first.astype(float))
     return row
+
+
+def _signs(law: Law, first: np.ndarray) -> dict[str, float]:
+    """By how much the logarithm is larger where the first body is faster: fitted with the terms of the law together.
+
+    Nothing where the terms make up the sign, as sliding does of which each sign has a level of its own.
+    """
+    table = law.found.table
+    every = design_of({one.name: table[one.column].to_numpy() for one in INPUTS})
+    design = every[list(law.found.standard_errors)].assign(first=first)
+    if not is_determined(design, "first"):
+        return {}
+    fit = least_squares(design, np.log(table["friction_coefficient"].to_numpy()))
+    return {"first_less_second_of_log": float(fit.params["first"]), "signs_p_value": float(fit.pvalues["first"])}
 
 
 def _law_text(file: RegressionFile, law: Law, oil: Oil) -> str:
@@ -208,9 +230,10 @@ def _law_text(file: RegressionFile, law: Law, oil: Oil) -> str:
 def _line(law: Law) -> str:
     fit, terms = law.found.fit, law.found.terms["term"].iloc[1:]
     own, left_out = (100.0 * fit[f"{which}rms_of_log"] for which in ("", "left_out_"))
+    how = "one by one" if fit["left_out_parts"] == fit["readings"] else f"in {fit['left_out_parts']} parts"
     return (
         f"{law.name}: {fit['readings']} readings, R² {fit['r_squared']:.4f}, rms error {own:.3g} % ({left_out:.3g} % "
-        f"of readings left out one by one); terms {', '.join(terms) or 'none'}"
+        f"of readings left out {how}, with terms chosen anew); terms {', '.join(terms) or 'none'}"
     )
 
 

@@ -1,5 +1,6 @@
 """Regression of traction: the planted law is found again, its intervals hold, and studies take it; bad input."""
 
+import math
 import tomllib
 from dataclasses import replace
 
@@ -7,8 +8,17 @@ import numpy as np
 import pytest
 
 from mixedlub.cli import main
-from mixedlub.condensed.stepwise import chosen_terms, design_of, measured_regression
+from mixedlub.condensed.regression import design_of
+from mixedlub.condensed.stepwise import (
+    FOLDS,
+    ONE_BY_ONE,
+    candidates,
+    chosen_terms,
+    errors_left_out,
+    measured_regression,
+)
 from mixedlub.evaluate import evaluate
+from mixedlub.friction.condensed import INPUTS
 from mixedlub.validation.benches import traction as bench
 from mixedlub.validation.benches.tables import as_csv
 from profiles.errors import InputError
@@ -61,6 +71,30 @@ def test_signs_that_differ_are_told_and_have_their_own_laws(tmp_path):
     assert fits["signs_p_value"]["both signs"] < 1e-6
     constants = [terms_of(found, f"{sign} faster")["value"]["c_0"] for sign in ("first", "second")]
     assert constants[0] - constants[1] == pytest.approx(0.1, abs=0.02)
+
+
+def test_signs_that_slide_unlike_amounts_are_told_apart_from_their_sliding(tmp_path):
+    """Sliding is 3.3 times as large where the first disc is faster, friction 0.1 larger at the same sliding."""
+    columns, plan = bench.recorded(bench.Bench(), 0), bench.Bench(first_faster=0.1)
+    noise = 0.02 * np.random.default_rng(1).standard_normal(len(columns["run"]))
+    conditions = ("load_N", "slide_roll_ratio", "entrainment_speed_m_s", "oil_temperature_C")
+    for row, (load, ratio, speed, warm) in enumerate(zip(*(columns[name] for name in conditions), strict=True)):
+        slid = ratio * math.exp(math.copysign(0.6, ratio))
+        friction = bench.friction(plan, bench.hertz_pressure(load), slid, speed, bench.viscosity(warm))
+        columns["slide_roll_ratio"][row] = slid
+        columns["friction_coefficient"][row] = friction * math.exp(noise[row])
+    fit = found_of(tmp_path, columns, regression={"signs": "together"}).tables["fits"].iloc[0]
+    assert fit["first_less_second_of_log"] == pytest.approx(0.1, abs=0.01)
+
+
+def test_signs_with_a_level_of_sliding_each_are_not_told_apart(tmp_path):
+    columns = bench.recorded(bench.Bench(ratios=(0.12,)), 0)
+    ratio, friction = (np.array(columns[name]) for name in ("slide_roll_ratio", "friction_coefficient"))
+    columns["slide_roll_ratio"] = np.where(ratio > 0.0, 0.5, ratio).tolist()
+    columns["friction_coefficient"] = np.where(ratio > 0.0, 1.3 * friction, friction).tolist()
+    found = found_of(tmp_path, columns)
+    assert "c_s" in terms_of(found).index
+    assert "first_less_second_of_log" not in found.tables["fits"]
 
 
 def test_pairs_of_surfaces_have_laws_of_their_own(tmp_path):
@@ -157,3 +191,31 @@ def test_a_term_that_others_make_up_is_not_chosen():
     kept = chosen_terms(design[["c_0", "c_p", "c_s", "c_u"]], np.log(x) + 1e-6 * np.sin(40 * x), "p-value")
     assert len(kept) == 2
     assert kept[0] == "c_0"
+
+
+def scattered_design(random, count):
+    inputs = {one.name: one.middle * np.exp(random.uniform(-1.0, 1.0, count)) for one in INPUTS}
+    return design_of(inputs)[candidates("psuv", 2)]
+
+
+def test_the_error_of_readings_left_out_is_that_of_fresh_readings():
+    """24 readings that depend on nothing: with the terms chosen once, the square of it is two thirds as large."""
+    left_out, fresh = [], []
+    for seed in range(20):
+        random = np.random.default_rng(seed)
+        design, wanted = scattered_design(random, 24), random.standard_normal(24)
+        error, parts = errors_left_out(design, wanted, "bic")
+        left_out.append(np.mean(error**2))
+        assert parts == 24
+        kept = chosen_terms(design, wanted, "bic")
+        found = np.linalg.lstsq(design[kept].to_numpy(), wanted, rcond=None)[0]
+        fresh.append(1.0 + np.mean((scattered_design(random, 500)[kept].to_numpy() @ found) ** 2))
+    assert np.mean(left_out) == pytest.approx(np.mean(fresh), rel=0.15)
+
+
+def test_many_readings_are_left_out_in_ten_parts():
+    random = np.random.default_rng(0)
+    design = scattered_design(random, ONE_BY_ONE + 1)
+    error, parts = errors_left_out(design, design["c_p"].to_numpy() + 0.1 * random.standard_normal(len(design)), "bic")
+    assert parts == FOLDS
+    assert error.std() == pytest.approx(0.1, rel=0.15)
