@@ -144,9 +144,10 @@ def gaussian_scatter(area: HeightMap, *angles: float) -> np.ndarray:
     .. math:: \frac{\mathrm{sd}(m_n)^2}{m_n^2} = \frac{\sum_q k_q^{2n} P_q^2}{\left(\sum_q k_q^n P_q\right)^2}
 
     with the periodogram P of the map under a Hann window and the wavenumber k along the angle (rad from the x axis) as
-    differences see it; m2 and m4 are means over several angles. Valid for waves up to about an eighth of the map; too low
-    for longer ones, for m0 by a sixth at half the map and by two fifths at waves as long as it. Each ordinate of the periodogram is exponential, so
-    that its square is twice that of the spectrum, which makes up for the two ordinates that are one.
+    differences see it; m2 and m4 are means over several angles. Valid for waves up to about an eighth of the map; too
+    low for longer ones, for m0 by a sixth at half the map and by two fifths at waves as long as it. Each ordinate of
+    the periodogram is exponential, so that its square is twice that of the spectrum, which makes up for the two
+    ordinates that are one.
     Source: M. B. Priestley, Spectral Analysis and Time Series, 1981, section 6.1.
 
     >>> white = HeightMap(1e-7 * np.random.default_rng(1).standard_normal((128, 128)), 1e-6, 1e-6)

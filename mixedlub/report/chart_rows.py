@@ -110,6 +110,7 @@ def _choice(results: Results, places: Sequence[np.ndarray]) -> str:
     thinned = [f"{len(p)} of {n} {name}" for p, n, name in zip(places, counts, names, strict=True) if len(p) < n]
     return (
         f"The chart has {prod(len(p) for p in places)} of the {results.study.conditions} conditions, so that the page "
-        f"stays small: {', '.join(thinned)}, about evenly spaced, first and last included. Numbers have {DIGITS} digits. "
+        f"stays small: {', '.join(thinned)}, about evenly spaced, first and last included. "
+        f"Numbers have {DIGITS} digits. "
         "All conditions with all digits are in results.csv and results.parquet beside the page."
     )
