@@ -36,8 +36,8 @@ TURBULENT = -1.0 / 3.0, 8.0 / 3.0
         Parameter(
             "second_law",
             "-",
-            Uniform(0.0, 1.0),
-            "share of the second law of Changenet and Velex at high speed; 0 keeps the powers of low speed",
+            Uniform(-1.0, 1.0),
+            "share of the second law of Changenet and Velex at high speed; up to 0 the powers of low speed stay",
             symbol="x",
         ),
     ),
@@ -45,7 +45,7 @@ TURBULENT = -1.0 / 3.0, 8.0 / 3.0
     r"C_m = 0.7623\,\mathrm{Fr}^{-0.6}\,\mathrm{Re}^{-0.21}(\mathrm{Fr}/70)^{0.6-f}(\mathrm{Re}/16000)^{0.21-q},\ "
     r"f = 1 - q - \tfrac12 p',\quad "
     r"p' = p + \max(-3q, 0)(\tfrac83 - p),\quad "
-    r"C_m \leftarrow C_m + x\,\min(\max(\tfrac{\gamma - 750}{500}, 0), 1)"
+    r"C_m \leftarrow C_m + \max(x, 0)\,\min(\max(\tfrac{\gamma - 750}{500}, 0), 1)"
     r"\left[2.7526\,\mathrm{Fr}^{-0.88}\left(\tfrac{b_w}{2 r_2}\right)^{0.85} - C_m\right],\quad "
     r"\gamma = \omega_2^2(r_2 b_w m_n)^{1/3},\quad "
     r"\mathrm{Fr} = \omega_2^2 r_2/(9.81\,\text{m/s}^2),\ \mathrm{Re} = \rho\,\omega_2 r_2^2/\eta_0,\quad "
@@ -87,7 +87,8 @@ def churning(
     The immersion depth is half the wheel's radius; published methods differ by a factor of 6 at high speed. Power is
     proportional to n^(1 + q + p) nu^q: where viscosity resists, it does not also rise with the cube of speed as in air.
     Between q = 0 and Boness' branch, where thinner oil causes more loss, p rises to Boness' value. Changenet and Velex
-    have a second law at high speed, which viscosity does not enter. The accelerations make the form belong to m/s^2.
+    have a second law at high speed, which viscosity does not enter; the others cited keep their powers, and half of the
+    prior lies on that. The accelerations make the form belong to m/s^2.
 
     >>> wheel = dict(gear_radius=0.05, face_width=0.02, gear_module=4e-3, gear_teeth=25.0)
     >>> wheel |= dict(helix_angle=0.0, gears_fitted=1.0)
@@ -104,5 +105,5 @@ def churning(
     slow = drag.churning_changenet_velex(*wheel, viscosity, oil_density, *exponents, helix_angle=helix_angle)
     fast = drag.churning_at_high_speed(*wheel, oil_density, helix_angle=helix_angle)
     return power_loss + strength * gears_fitted * drag.churning_at_either_speed(
-        slow, fast, bath_acceleration, second_law
+        slow, fast, bath_acceleration, max(second_law, 0.0)
     )
