@@ -59,7 +59,7 @@ def rise_of_teeth(
     source="ISO/TR 15144-1, bulk temperature, with n = 0.72",
     fingerprint={"speed": "+", "oil_temperature": "-", "roughness": "+"},
     separated_by="a thermocouple in a tooth, or the same point again with twice the flow of oil",
-    special_cases={"ISO/TR 15144-1": {"exponent": 0.72, "friction": 1.0}},
+    special_cases={"ISO/TR 15144-1": {"exponent": heating.TOOTH_RISE_EXPONENT, "friction": 1.0}},
     applied_after=("viscosity_temperature_law", "viscosity_drift"),
     kinds=("gear_pair",),
 )

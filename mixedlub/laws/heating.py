@@ -8,6 +8,8 @@ from mixedlub.laws.oil import ROELANDS_LOG
 from mixedlub.powers import power
 
 _ITERATIONS = 4
+TOOTH_RISE_EXPONENT = 0.72
+"""Exponent of the loss in the rise of the teeth, ISO/TR 15144-1."""
 _LARGEST_OVER_MEAN = 0.786 / 0.542
 """Largest over mean rise of a contact with semi-elliptic heat flux, from the integral of the line source."""
 
@@ -180,4 +182,4 @@ def tooth_rise(power_loss: np.ndarray, pinion_radius: float, gear_radius: float,
     13.3
     """
     load = power_loss * 1e-3 / ((pinion_radius + gear_radius) * face_width * 1e6)
-    return 7400.0 * power(load, 0.72) / 1.95
+    return 7400.0 * power(load, TOOTH_RISE_EXPONENT) / 1.95

@@ -10,14 +10,13 @@ import numpy as np
 
 from mixedlub.chain.model import Law, Model, Parameters
 from mixedlub.effects.bulk_temperature import rise_of_teeth
+from mixedlub.laws.heating import TOOTH_RISE_EXPONENT
 from mixedlub.study.pieces import PIECE_PAIRINGS, PIECE_POINTS, Inputs, reach, split, taken
 from profiles.errors import InputError
 
 LOSS = "power_loss"
 BULK = "bulk_temperature"
 """Effect that warms the teeth."""
-EXPONENT = 0.72
-"""Exponent of the heat in ISO/TR 15144-1."""
 
 
 def heat_inputs(model: Model, inputs: Inputs, shape: tuple[int, int, int, int], points: int) -> dict[str, Any]:
@@ -35,11 +34,11 @@ def heat_inputs(model: Model, inputs: Inputs, shape: tuple[int, int, int, int], 
 
 def check_exponent(parameters: Parameters) -> None:
     """Refuse another exponent of the heat than the standard's: it needs a measured loss at which the two agree."""
-    given = parameters.get(BULK, {}).get("exponent", EXPONENT)
-    if given != EXPONENT:
+    given = parameters.get(BULK, {}).get("exponent", TOOTH_RISE_EXPONENT)
+    if given != TOOTH_RISE_EXPONENT:
         rule = (
-            f"must be {EXPONENT:g}, as in ISO/TR 15144-1: another exponent needs a recorded loss at which it gives the "
-            "rise of the standard, which a computation without recordings does not have"
+            f"must be {TOOTH_RISE_EXPONENT:g}, as in ISO/TR 15144-1: another exponent needs a recorded loss at which "
+            "it gives the rise of the standard, which a computation without recordings does not have"
         )
         raise InputError(rule, where=f"effects.{BULK}.exponent", value=given)
 

@@ -91,6 +91,11 @@ def tied(truth: Truth, answer: Answer) -> bool:
     return right(truth, answer) or truth.label in [physics(one, truth) for one in answer.tied]
 
 
+def together(truth: Truth, answer: Answer) -> bool:
+    """The verdict, or one explanation tied with it, names every effect that is hidden."""
+    return any(truth.label <= one for one in (answer.verdict, *answer.tied))
+
+
 def laws_named(laws: frozenset[str], truth: Truth, answer: Answer) -> float:
     """Share of some laws that the verdict or a tied explanation has, without one that the rig does not follow."""
     honest = [one & LAWS for one in (answer.verdict, *answer.tied) if one & LAWS <= truth.laws]

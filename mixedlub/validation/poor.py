@@ -24,12 +24,13 @@ from mixedlub.validation.battery import (
     sizes,
     surveyed,
 )
-from mixedlub.validation.measures import false_physics, unknown_suspected
+from mixedlub.validation.measures import together
 from mixedlub.validation.planted import FORMS
 from mixedlub.validation.rig import Rig
 from mixedlub.validation.rigs import CLASSES, KINDS, Family, Partners
 from mixedlub.validation.sample_case import FEW, HEAVY, LASTING, MIS_SET, SD_ESTIMATED, Order
-from mixedlub.validation.score import FIGURES, Figure, at_least, at_most
+from mixedlub.validation.score import FIGURES, Figure, at_least
+from mixedlub.validation.worlds.figures import WORLD_FIGURES
 from profiles.errors import InputError
 
 THREE = "three effects"
@@ -109,17 +110,8 @@ def plan_poor(seed: int, cases: int, kinds: Sequence[str]) -> list[Order]:
     return shuffled(rng, [order for family, n in zip(chosen, each) for order in _orders(rng, family, seed, n)])
 
 
-def _all_three(truth: Truth, answer: Answer) -> float:
-    """All three are named by the verdict or by one explanation tied with it."""
-    return float(any(truth.label <= one for one in (answer.verdict, *answer.tied)))
-
-
 def _two_of_three(truth: Truth, answer: Answer) -> float:
     return float(len(truth.label & answer.verdict) >= 2)
-
-
-def _nothing(truth: Truth, answer: Answer) -> bool:
-    return truth.group == "none"
 
 
 def _triple_case(truth: Truth, answer: Answer) -> bool:
@@ -132,11 +124,9 @@ def _few_tied(truth: Truth, answer: Answer) -> float:
 
 POOR_FIGURES: tuple[Figure, ...] = (
     *FIGURES,
-    Figure("three", "three effects named, or in one tie", _triple_case, _all_three, at_least(0.6), "share"),
+    Figure("three", "three effects named, or in one tie", _triple_case, together, at_least(0.6), "share"),
     Figure("two_of_three", "  two of them named", _triple_case, _two_of_three, reduction="share"),
-    Figure("false_physics", "nothing missing: a false effect at 0.9 or more", _nothing, false_physics, at_most(0.03),
-           "share"),
-    Figure("unknown_false", "nothing missing: unknown above 0.5", _nothing, unknown_suspected, at_most(0.05), "share"),
+    *(figure for figure in WORLD_FIGURES if figure.key in ("false_physics", "unknown_false")),
     Figure("few_tied", "at most three explanations tied", lambda truth, answer: True, _few_tied, at_least(0.9),
            "share"),
 )  # fmt: skip

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from mixedlub.validation.measures import Pair, crossed, outliers_false, outliers_found, right, tied
+from mixedlub.validation.measures import Pair, crossed, outliers_false, outliers_found, right, tied, together
 
 
 def _count(hits: Sequence[bool]) -> str:
@@ -25,7 +25,7 @@ def counts(pairs: Mapping[str, Sequence[Pair]], title: str = "by kind") -> str:
         "right or tied, one effect, all": lambda s: [tied(t, a) for t, a in of(s, *one)],
         "both of a pair": lambda s: [t.label <= a.verdict for t, a in of(s, "pair")],
         "a pair, exactly or tied": lambda s: [tied(t, a) for t, a in of(s, "pair")],
-        "all of three": lambda s: [any(t.label <= one for one in a.tied) for t, a in of(s, "triple")],
+        "all of three": lambda s: [together(t, a) for t, a in of(s, "triple")],
         "none where nothing is missing": lambda s: [right(t, a) for t, a in of(s, "none")],
         "false alarms": lambda s: [a.detected for t, a in of(s, "none")],
         "unknown where so and identifiable": lambda s: [

@@ -44,8 +44,8 @@ def with_additions(
 ) -> dict[Explanation, Fit]:
     """The fits with a further law or effect beside the leaders, as long as one improves.
 
-    Pairs of laws are all tried. A further effect is tried beside laws, and beside two effects, or
-    one and a law, where nothing is much more probable.
+    Pairs of laws are all tried. A further effect is tried beside laws, and beside two effects, or one and a law, where
+    nothing is much more probable.
     """
     prior = PriorOdds.of(s.id for s in draws)
     laws = tuple(s for s in draws if s.id in prior.laws)
@@ -65,8 +65,7 @@ def with_additions(
         added = promising_additions(problem, leaders, laws, most)
         best = max(weight(f) for f in fits.values())
         added += promising_additions(problem, [f for f in leaders if needs_more(f, best)], others, MOST_ADDED)
-        null_fit = fits[NOTHING]
-        fresh = [one for one in added if one[0] not in fits and not one_in_time(one[0], problem, null_fit)]
+        fresh = [one for one in added if one[0] not in fits and not one_in_time(one[0], problem, fits[NOTHING])]
         found = fit_from(problem, fresh, max(f.evidence for f in fits.values()))
         fits |= {one.explanation: one for one in found}
         ranked = sorted((f for f in fits.values() if f.explanation.effects), key=lambda f: -weight(f))
