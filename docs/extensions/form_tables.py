@@ -7,6 +7,7 @@ import re
 from itertools import groupby
 
 import scores
+from markdown_tables import table
 
 HEAD = ("form", "law, its constants those of the generator", "range", "planted on", "the catalogue's law can become it")
 PHYSICS = ("film", "shear", "contact", "boundary", "load", "loss", "property", "law", "measurement")
@@ -42,7 +43,5 @@ def tables() -> str:
             within = "yes" if set(one.within) == set(one.on) else ", ".join(one.within) or "no"
             named = ("; ".join(map(str, counts.get((effect, one.source), ("-",)))),) if counts else ()
             rows.append((one.source, formula(form.law), range_, ", ".join(one.on), within, *named))
-        lines = [f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
-        lines += [f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |" for row in rows]
-        parts.append(f"### {effect}\n\n" + "\n".join(lines))
+        parts.append(f"### {effect}\n\n{table(head, rows)}")
     return "\n\n".join(parts)

@@ -8,11 +8,12 @@ import io
 import pkgutil
 import re
 import tomllib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import form_tables
+import markdown_tables as md
 import scores
 import thresholds
 from sphinx.application import Sphinx
@@ -22,7 +23,6 @@ LAW_MODULES = ("roughness.mccool", "roughness.integrals", "roughness.single_aspe
 """Laws of surfaces that the chain calls; those of `mixedlub.laws` come first."""
 TITLES = {"mccool": "McCool's asperities", "integrals": "Integrals of Gaussian heights"}
 COLUMN_HEAD = ("column", "unit", "needed", "allowed", "meaning")
-KEY_HEAD = ("key", "unit", "default", "allowed", "meaning")
 ELSEWHERE = re.compile(r"^gears|^stages\.NAME\.(gears|lubricant|surfaces|options)\b")
 """Tables of a file whose keys other pages have."""
 WITH_PAGES = ("laws", "effects", "friction")
@@ -132,13 +132,13 @@ def _kinds() -> Iterator[tuple[str, str]]:
             f"# {name}",
             f"{k.about.rstrip('.')}. Base model: {k.base_model}",
             "## Columns",
-            _table(COLUMN_HEAD, kind_rows(k)),
+            md.named_table(COLUMN_HEAD, kind_rows(k)),
         ]
-        parts += ["Columns of every kind:", _table(COLUMN_HEAD, common_rows()), "## Keys of system.toml"]
+        parts += ["Columns of every kind:", md.named_table(COLUMN_HEAD, common_rows()), "## Keys of system.toml"]
         for table in tables(System):
             if table.name.split(".")[0] in taken:
                 use = " Optional for this kind." if table.name.split(".")[0] in k.uses else ""
-                parts += _keys(table, use)
+                parts += md.keys(table, use)
         yield f"kinds/{name}", "\n\n".join(parts) + "\n"
 
 
@@ -188,7 +188,7 @@ def _oils() -> str:
         oil = shipped_oil(name)
         parts += [f"## {name}", f"{oil.name}, base stock `{oil.base}`. {oil.about}".rstrip()]
         rows = [(key, _numbers(one.value), one.status, one.source) for key, one in oil.properties.items()]
-        parts.append(_table(("key", "value", "status", "source"), rows))
+        parts.append(md.named_table(("key", "value", "status", "source"), rows))
         if oil.further:
             further = [
                 (
@@ -199,7 +199,7 @@ def _oils() -> str:
                 )
                 for key, one in oil.further.items()
             ]
-            parts += ["Further laws:", _table(("law", "equation and numbers", "status", "source"), further)]
+            parts += ["Further laws:", md.named_table(("law", "equation and numbers", "status", "source"), further)]
     return "\n\n".join(parts)
 
 
@@ -212,7 +212,7 @@ def _presets() -> str:
         gears = shipped_gears(name)
         parts += [f"## {name}", f"{gears.name}. {gears.about} Source: {gears.source}."]
         rows = [(key, _numbers(one.value), one.status, one.note) for key, one in gears.properties.items()]
-        parts.append(_table(("key", "value", "status", "note"), rows))
+        parts.append(md.named_table(("key", "value", "status", "note"), rows))
     return "\n\n".join(parts)
 
 
@@ -223,16 +223,14 @@ def _numbers(value: Any) -> str:
 def _oil_keys() -> str:
     """The keys of the file of an oil."""
     from mixedlub.schema.oil_file import OilFile
-    from mixedlub.schema.section import tables
 
-    return "\n\n".join(part for table in tables(OilFile) for part in _keys(table))
+    return md.key_tables(OilFile)
 
 
 def _study_keys() -> str:
-    from mixedlub.schema.section import tables
     from mixedlub.study.schema import StudyFile
 
-    return "\n\n".join(part for table in tables(StudyFile) for part in _keys(table))
+    return md.key_tables(StudyFile)
 
 
 def _study_columns() -> str:
@@ -241,7 +239,7 @@ def _study_columns() -> str:
     from mixedlub.study.curves import curve_columns
     from mixedlub.study.fits import fit_columns
 
-    return _columns(
+    return md.columns(
         {
             "results.csv, results.parquet": every_column(["EFFECT"], bands=False),
             "fits.csv": fit_columns(),
@@ -254,16 +252,8 @@ def _factor_columns() -> str:
     """The columns of the tables of an experiment but those of a study."""
     from mixedlub.study.factor_tables import OF_INDICES, OF_INTERACTIONS, OF_MAIN_EFFECTS
 
-    return _columns(
+    return md.columns(
         {"indices.csv": OF_INDICES, "interactions.csv": OF_INTERACTIONS, "main_effects.csv": OF_MAIN_EFFECTS}
-    )
-
-
-def _columns(tables: Mapping[str, Iterable[Any]]) -> str:
-    """Name, unit and meaning of the columns of each table."""
-    return "\n\n".join(
-        f"### {title}\n\n{_table(('column', 'unit', 'meaning'), [(c.name, c.unit, c.meaning) for c in columns])}"
-        for title, columns in tables.items()
     )
 
 
@@ -274,7 +264,7 @@ def _file_keys(module: str, name: str) -> str:
     from mixedlub.schema.section import tables
 
     file = getattr(import_module(module), name)
-    return "\n\n".join(part for table in tables(file) if not ELSEWHERE.search(table.title) for part in _keys(table))
+    return "\n\n".join(part for table in tables(file) if not ELSEWHERE.search(table.title) for part in md.keys(table))
 
 
 def _evaluations() -> str:
@@ -287,41 +277,12 @@ def _evaluations() -> str:
     for one in EVALUATIONS.values():
         parts += [f"## {one.name}", f"{one.about[:1].upper()}{one.about[1:]}. Source: {one.source}."]
         for title, columns in one.columns.items():
-            parts += [f"Columns of {title}:", _table(COLUMN_HEAD, column_rows(columns))]
+            parts += [f"Columns of {title}:", md.named_table(COLUMN_HEAD, column_rows(columns))]
         elsewhere = ("gears", "lubricant", "surfaces", "contact")
         parts += [
-            part for table in tables(one.file) if table.name.split(".")[0] not in elsewhere for part in _keys(table)
+            part for table in tables(one.file) if table.name.split(".")[0] not in elsewhere for part in md.keys(table)
         ]
     return "\n\n".join(parts)
-
-
-def _keys(table: Any, use: str = "") -> Iterator[str]:
-    """A table of a file: its meaning and its keys, each with the meanings of its values."""
-    from mixedlub.report.format_reference import key_row
-
-    yield f"### [{table.title}]" if table.title else "### Top of the file"
-    if table.meaning:
-        yield f"{table.meaning[:1].upper()}{table.meaning[1:]}.{use}"
-    rows = []
-    for key in table.keys:
-        *facts, meaning = key_row(key)
-        values = "; ".join(f"`{value}`: {text}" for value, text in key.values.items())
-        rows.append((*facts, f"{meaning} ({values})" if values else meaning))
-    if rows:
-        yield _table(KEY_HEAD, rows)
-
-
-def _table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
-    """A table in Markdown, the first column as code.
-
-    >>> print(_table(("key", "meaning"), [("teeth", "numbers of teeth")]))
-    | key | meaning |
-    |---|---|
-    | `teeth` | numbers of teeth |
-    """
-    lines = [f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
-    cells = ([cell.replace("|", "\\|") for cell in row] for row in rows)
-    return "\n".join([*lines, *(f"| `{name}` | {' | '.join(rest)} |" for name, *rest in cells)])
 
 
 def _api() -> str:
@@ -368,20 +329,20 @@ def _rooms() -> str:
         if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name) and node.targets[0].id == "ROOMS"
     )
     rooms = eval(compile(ast.Expression(given), "test_rooms", "eval"))[""]
-    lines = ["| room | holds |", "|---|---|"]
+    rows = []
     for room in rooms:
         folder = ROOT / "mixedlub" / room
         path = folder / "__init__.py" if folder.is_dir() else folder.with_suffix(".py")
         about = (ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or "").partition("\n")[0]
         if not room.startswith("__"):
-            lines.append(f"| `mixedlub/{room}` | {about} |")
-    return "\n".join(lines)
+            rows.append((f"mixedlub/{room}", about))
+    return md.named_table(("room", "holds"), rows)
 
 
 def _ranges() -> str:
     """Allowed and typical ranges of every number, from the table that holds them."""
     source = (ROOT / "mixedlub/schema/ranges.toml").read_text(encoding="utf-8")
-    lines = ["| key | allowed | typical |", "|---|---|---|"]
+    rows = []
 
     def walk(place: str, table: dict[str, Any]) -> None:
         for key, value in table.items():
@@ -390,14 +351,13 @@ def _ranges() -> str:
                 continue
             limits = [v for v in value.values() if isinstance(v, list) and len(v) == 2]
             if limits:
-                cells = (f"{low:g} to {high:g}" for low, high in limits)
-                lines.append(f"| `{name}` | {' | '.join(cells)} |")
+                rows.append((name, *(f"{low:g} to {high:g}" for low, high in limits)))
             else:
                 walk(name, value)
 
     walk("", tomllib.loads(source))
     notes = [line.lstrip("# ") for line in source.partition("\n\n")[0].splitlines() if line.startswith("#")]
-    return "\n".join(lines) + "\n\n" + "\n".join(notes)
+    return md.named_table(("key", "allowed", "typical"), rows) + "\n\n" + "\n".join(notes)
 
 
 def _write(app: Sphinx) -> None:

@@ -6,6 +6,8 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from markdown_tables import table
+
 FOLDER = Path(__file__).parents[2] / "examples/proof"
 TOOL = "mixedlub diagnose"
 
@@ -79,18 +81,14 @@ def missed(rows: dict[str, Row]) -> str:
 
 def compared(tools: dict[str, dict[str, Row]], names: tuple[str, ...]) -> str:
     """Markdown table of some rows, a column a tool."""
-    lines = [f"| figure | {' | '.join(tools)} |", "|---" * (len(tools) + 1) + "|"]
-    for name in names:
-        lines.append(f"| {name} | " + " | ".join(rows[name].value for rows in tools.values()) + " |")
-    return "\n".join(lines)
+    return table(("figure", *tools), ((name, *(rows[name].value for rows in tools.values())) for name in names))
 
 
 def counts(text: str, title: str = "by kind") -> str:
     """Markdown table of the counts a kind of rig, or a flaw, from the block that starts with the title."""
     (block,) = (b for b in text.split("\n\n") if b.startswith(title))
-    rows = [_GAP.split(line.strip()) for line in block.splitlines()]
-    lines = [f"| {' | '.join(row)} |" for row in rows]
-    return "\n".join([lines[0], "|---" * len(rows[0]) + "|", *lines[1:]])
+    head, *rows = (_GAP.split(line.strip()) for line in block.splitlines())
+    return table(head, rows)
 
 
 def by_form(text: str) -> dict[tuple[str, str], tuple[int, int, int]]:

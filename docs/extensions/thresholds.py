@@ -10,6 +10,8 @@ from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
 
+from markdown_tables import table
+
 ROOT = Path(__file__).parents[2] / "mixedlub"
 SETTINGS = ("inference", "discrepancy", "search", "assessment", "report")
 """Modules of the settings of the diagnosis, in the order of its rooms."""
@@ -70,8 +72,5 @@ def tables() -> str:
 
 
 def _table(found: list[Row]) -> str:
-    lines = ["| name | value | kind | reason |", "|---|---|---|---|"]
-    for row in found:
-        cells = (f"`{row.name}`", f"`{row.value}`", row.kind.lower(), row.reason)
-        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
-    return "\n".join(lines)
+    cells = ((f"`{row.name}`", f"`{row.value}`", row.kind.lower(), row.reason) for row in found)
+    return table(("name", "value", "kind", "reason"), cells)
