@@ -3,6 +3,8 @@
 PYTHON ?= python3
 BIN := .venv/bin
 QUICK ?=
+# Tests start hundreds of programs, each of which would compile the package anew.
+export PYTHONDONTWRITEBYTECODE :=
 
 .PHONY: study test bench prove check docs lint types examples
 

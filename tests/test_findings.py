@@ -28,27 +28,30 @@ from mixedlub.schema.findings import (
 )
 from profiles.errors import InputError
 
-TREES = [ast.parse(path.read_text(encoding="utf-8")) for path in Path(mixedlub.__file__).parent.rglob("*.py")]
-MADE = {
-    node.args[0].value
-    for tree in TREES
-    for node in ast.walk(tree)
-    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "finding"
-    if node.args and isinstance(node.args[0], ast.Constant)
-}
-"""Codes of the findings that the package makes."""
-NAMED = {node.value for tree in TREES for node in ast.walk(tree) if isinstance(node, ast.Constant)}
 HISTORY = "time_s,load (N),drive,cof\n" + "".join(f"{t},9,{'AB'[t % 2]},0.1{t % 7}\n" for t in range(30))
 ANSWERS = ('kind="friction_history"', 'import.units.friction_coefficient="-"')
 
 
-def test_every_finding_of_the_package_is_of_a_registered_kind() -> None:
-    assert len(MADE) > 50
-    assert set(registered()) >= MADE
+@pytest.fixture(scope="module")
+def nodes() -> list[ast.AST]:
+    """The source of the package."""
+    paths = Path(mixedlub.__file__).parent.rglob("*.py")
+    return [node for path in paths for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))]
 
 
-def test_every_registered_kind_is_used_and_explained_in_one_line() -> None:
-    assert set(registered()) <= NAMED
+def test_every_finding_of_the_package_is_of_a_registered_kind(nodes: list[ast.AST]) -> None:
+    made = {
+        node.args[0].value
+        for node in nodes
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "finding"
+        if node.args and isinstance(node.args[0], ast.Constant)
+    }
+    assert len(made) > 50
+    assert set(registered()) >= made
+
+
+def test_every_registered_kind_is_used_and_explained_in_one_line(nodes: list[ast.AST]) -> None:
+    assert set(registered()) <= {node.value for node in nodes if isinstance(node, ast.Constant)}
     for code, kind in registered().items():
         assert re.fullmatch(r"[a-z][a-z0-9_]*", code)
         assert kind.meaning.endswith(".")

@@ -153,9 +153,13 @@ def test_a_title_cannot_command_the_terminal(study, capsys):
     assert "\x1b" not in out
 
 
-def test_a_title_cannot_command_a_terminal_that_shows_the_page(study, tmp_path):
-    study.write_text(STUDY.replace('"Trial"', r'"\u001b[31mred\u0007"'))
+def test_a_page_keeps_the_letters_of_keys_and_no_title_in_it_commands_a_terminal(study, tmp_path):
+    without = STUDY.replace("density_15C_kg_m3 = 850.0\n", "")
+    study.write_text(without.replace('"Trial"', r'"\u001b[31mred\u0007"'))
     assert main(["study", str(study), "--out", "o"]) == 0
+    page = (tmp_path / "o" / "index.html").read_text(encoding="utf-8")
+    assert "lubricant: density_15C_kg_m3" in page
+    assert "text-transform" not in page
     written = [path.read_bytes() for path in (tmp_path / "o").rglob("*") if path.suffix in (".html", ".json", ".svg")]
     assert written
     assert not any(b"\x1b" in content or b"\x07" in content for content in written)
@@ -166,14 +170,6 @@ def test_a_surface_without_a_proper_name_is_refused(name, study, capsys):
     study.write_text(STUDY.replace("fine =", f"{name} ="))
     assert main(["study", str(study), "--no-figures"]) == 2
     assert "is no name: one line of text" in capsys.readouterr().err
-
-
-def test_keys_keep_their_letters_in_the_notes_of_a_page(study, tmp_path):
-    study.write_text(STUDY.replace("density_15C_kg_m3 = 850.0\n", ""))
-    assert main(["study", str(study), "--out", "o"]) == 0
-    page = (tmp_path / "o" / "index.html").read_text(encoding="utf-8")
-    assert "lubricant: density_15C_kg_m3" in page
-    assert "text-transform" not in page
 
 
 def test_misspelt_command_names_the_nearest(capsys):

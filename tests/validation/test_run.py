@@ -2,6 +2,7 @@
 
 import json
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -10,14 +11,16 @@ from typer.testing import CliRunner
 from mixedlub.cli import app, main
 from mixedlub.validation import baselines
 from mixedlub.validation.answers import read_answer, read_truth
-from mixedlub.validation.baselines import BASELINES, recalibrate, recalibration_only
+from mixedlub.validation.baselines import BASELINES, recalibrate
+from mixedlub.validation.battery import generate, make, plan
 from mixedlub.validation.measures import held_out
 from mixedlub.validation.oracle import oracle
 from mixedlub.validation.rigs import CONTACTS, OTHERS
 from mixedlub.validation.run import BROKEN, Steady, judge, unsealed, validate
 from profiles.errors import InputError
 
-from .helpers import says_none
+from .conftest import SEED
+from .helpers import says_none, truth_of
 
 CALLS: list[str] = []
 WORLDS = ("gear_pair", "disc", "film", "friction_history", "viscosity", "mesh_friction")
@@ -26,7 +29,22 @@ WORLDS = ("gear_pair", "disc", "film", "friction_history", "viscosity", "mesh_fr
 def counted(case: Path, out: Path) -> None:
     CALLS.append(case.name)
     assert not (case / "truth.json").exists()
-    recalibration_only(case, out)
+    says_none(case, out)
+
+
+@contextmanager
+def without_rivals():
+    """Cases are called identifiable, and no rival is fitted to them, which takes nearly all of their time."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("mixedlub.validation.battery.weighed", lambda sample, label: ({"none": 100.0}, 0.0))
+        yield
+
+
+@pytest.fixture(scope="module")
+def dealt(tmp_path_factory):
+    """Eight cases of gears and discs, every class among them."""
+    with without_rivals():
+        return generate(tmp_path_factory.mktemp("dealt"), seed=11, cases=8)
 
 
 @pytest.fixture
@@ -37,12 +55,12 @@ def without_learners(monkeypatch):
 
 
 @pytest.mark.parametrize("name", list(BASELINES))
-def test_baselines_answer_in_the_form_of_the_diagnosis(battery, tmp_path, name):
+def test_baselines_answer_in_the_form_of_the_diagnosis(dealt, tmp_path, name):
     if name != "recalibration only":
         pytest.importorskip("sklearn")
-    case = unsealed(battery[0], tmp_path)
+    case = unsealed(dealt[0], tmp_path)
     BASELINES[name](case, tmp_path / "answer")
-    answer, truth = read_answer(tmp_path / "answer"), read_truth(battery[0])
+    answer, truth = read_answer(tmp_path / "answer"), read_truth(dealt[0])
     assert set(answer.run) == set(truth.run)
     assert all(0 < p < 1 for p in answer.probabilities.values())
     assert (answer.low < answer.high).all()
@@ -50,8 +68,8 @@ def test_baselines_answer_in_the_form_of_the_diagnosis(battery, tmp_path, name):
     assert predicted < 3 * calibrated + 3
 
 
-def test_the_oracle_names_what_is_clearly_hidden(battery, tmp_path):
-    clear = [folder for folder in battery if read_truth(folder).visibility > 12]
+def test_the_oracle_names_what_is_clearly_hidden(dealt, tmp_path):
+    clear = [folder for folder in dealt if read_truth(folder).visibility > 12]
     folder = next(folder for folder in clear if read_truth(folder).group == "single")
     oracle(unsealed(folder, tmp_path), tmp_path / "answer")
     answer, truth = read_answer(tmp_path / "answer"), read_truth(folder)
@@ -60,8 +78,8 @@ def test_the_oracle_names_what_is_clearly_hidden(battery, tmp_path):
     assert predicted < 0.5 * calibrated
 
 
-def test_recalibration_finds_the_noise_where_nothing_is_missing(battery, tmp_path):
-    nulls = [folder for folder in battery if read_truth(folder).group == "none"]
+def test_recalibration_finds_the_noise_where_nothing_is_missing(dealt, tmp_path):
+    nulls = [folder for folder in dealt if read_truth(folder).group == "none"]
     for folder in nulls:
         fitted = recalibrate(folder)
         assert fitted.squares / len(fitted.good) == pytest.approx(1.0, abs=0.5)
@@ -69,9 +87,9 @@ def test_recalibration_finds_the_noise_where_nothing_is_missing(battery, tmp_pat
         assert flagged >= read_truth(folder).outliers
 
 
-def test_missing_scikit_learn_says_what_to_install(battery, tmp_path, without_learners):
+def test_missing_scikit_learn_says_what_to_install(dealt, tmp_path, without_learners):
     with pytest.raises(InputError, match=r"pip install scikit-learn"):
-        baselines.gaussian_process(battery[0], tmp_path)
+        baselines.gaussian_process(dealt[0], tmp_path)
 
 
 def test_missing_scikit_learn_is_told_before_any_work(tmp_path, without_learners, capsys):
@@ -87,10 +105,10 @@ def test_missing_scikit_learn_is_told_before_any_work(tmp_path, without_learners
 
 def test_a_run_is_scored_and_resumed(tmp_path):
     CALLS.clear()
-    first = validate(tmp_path, counted, cases=5, seed=21, kinds=("disc",), jobs=1)
+    first = validate(tmp_path, counted, cases=5, seed=21, kinds=("viscosity",), jobs=1)
     assert sorted(CALLS) == [f"case_{i:03d}" for i in range(5)]
     (tmp_path / "answers" / "case_002" / "seconds.json").unlink()
-    again = validate(tmp_path, counted, cases=5, seed=21, kinds=("disc",), jobs=1)
+    again = validate(tmp_path, counted, cases=5, seed=21, kinds=("viscosity",), jobs=1)
     assert CALLS[5:] == ["case_002"]
     assert first["all"]["log_score"].value == pytest.approx(again["all"]["log_score"].value)
     assert {file.name for file in (tmp_path / "figures").iterdir()} == {
@@ -104,12 +122,24 @@ def test_a_run_is_scored_and_resumed(tmp_path):
     assert "withheld" in (tmp_path / "score.txt").read_text()
 
 
-def test_counts_by_kind_wrong_answers_and_break_downs(others, tmp_path):
-    for folder in others.values():
+def test_the_truth_of_a_disc_explains_its_readings_and_no_rival_does(tmp_path):
+    order = plan(11, 8)[2]
+    assert (order.kind, order.effects) == ("disc", ("film_heating",))
+    found = truth_of(tmp_path / make(11, 2, order, tmp_path))
+    assert found["own"] < min(found["alternatives"].values()) - 30
+    assert max(found["alternatives"].values()) <= found["alternatives"]["none"] + 1e-3
+    assert "film_heating" not in found["alternatives"]
+    assert found["identifiable"]
+
+
+def test_counts_by_kind_wrong_answers_and_break_downs(named_orders, tmp_path):
+    with without_rivals():
+        dealt = [tmp_path / make(SEED, place, order, tmp_path) for place, order in enumerate(named_orders.values())]
+    for folder in dealt:
         place = tmp_path / "answers" / folder.name
         place.mkdir(parents=True)
         Steady(says_none)(folder, place)
-    scores = judge(tmp_path, list(others.values()))
+    scores = judge(tmp_path, dealt)
     assert set(scores) == {"all", "film", "friction_history", "friction_map", "viscosity", "mesh_friction"}
     assert scores["all"]["none"].value == 1.0
     assert scores["all"]["right"].value == 0.0
