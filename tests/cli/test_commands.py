@@ -65,7 +65,18 @@ def lines_of(example):
     return [shlex.split(line) for line in example.split("&&")]
 
 
-@pytest.mark.parametrize("command", [c for c in COMMANDS if c.NAME not in ("prove", "diagnose")], ids=lambda c: c.NAME)
+LONG = ("condense",)
+"""Commands whose example takes long, and whose own tests have its contacts solved already."""
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        pytest.param(c, marks=pytest.mark.long if c.NAME in LONG else (), id=c.NAME)
+        for c in COMMANDS
+        if c.NAME not in ("prove", "diagnose")
+    ],
+)
 def test_the_example_of_the_help_runs_in_an_empty_folder(command, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     lines = lines_of(command.EXAMPLE)

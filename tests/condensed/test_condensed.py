@@ -92,9 +92,10 @@ def test_the_command_writes_law_tables_and_figures(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("mixedlub.condensed.points.solved_table", lambda oil, found, way: planted(0.03))
-    assert main(["condense", "atf", "--solutions", "150", "--no-figures", "--out", str(tmp_path)]) == 0
+    assert main(["condense", "atf", "--solutions", "150", "--out", str(tmp_path)]) == 0
     written = {path.name for path in tmp_path.iterdir()}
-    assert written == {"atf_friction.toml", "solutions.csv", "terms.csv", "against_published.csv"}
+    assert written == {"atf_friction.toml", "solutions.csv", "terms.csv", "against_published.csv", "figures"}
+    assert {path.suffix for path in (tmp_path / "figures").iterdir()} == {".svg"}
     assert "300 contacts solved" in capsys.readouterr().out
     assert main(["condense", "no_oil", "--out", str(tmp_path / "none")]) == 2
     assert not (tmp_path / "none").exists()

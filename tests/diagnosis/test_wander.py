@@ -38,7 +38,8 @@ def wandering(tmp_path_factory):
     return answer_to(tmp_path_factory.mktemp("wandering"), 0.1 * (1.0 + wandering_noise(3, 0.9, 0.01)))
 
 
-@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("seed", [1, 2])
 def test_wandering_noise_is_no_event(tmp_path, seed):
     d = answer_to(tmp_path, 0.1 * (1.0 + wandering_noise(seed, 0.9, 0.01)))
     assert d.posterior.verdict in (NOTHING, DISCREPANCY)

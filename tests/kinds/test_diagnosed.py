@@ -82,6 +82,7 @@ def test_film_at_high_speed_is_met_within_three_per_cent_after_ten_to_fourteen_b
     assert d.recorded.predicted[19] == pytest.approx(d.readings[19], rel=0.03)
 
 
+@pytest.mark.long
 def test_film_with_the_sds_of_the_rig_alone_loses_film_at_speed_too(typed_in, tmp_path):
     """The rig tells 0.5 to 2 nm, what one setting repeats to; films of other settings scatter by 1 to 3 %."""
     folder = Path(shutil.copytree(typed_in / "ehd_film_31C_50N", tmp_path / "case"))
@@ -151,7 +152,9 @@ def test_viscosity_under_pressure_is_neither_barus_nor_roelands(typed):
     assert np.std(np.log(d.readings / d.recorded.predicted)) < 0.06
 
 
-@pytest.mark.parametrize("sample", ["C20A", "C20A_OA-2", "TOCN"])
+@pytest.mark.parametrize(
+    "sample", ["C20A", *(pytest.param(one, marks=pytest.mark.long) for one in ("C20A_OA-2", "TOCN"))]
+)
 def test_greases_within_the_scatter_of_their_tests_show_nothing(typed, sample):
     d = typed(f"friction_modifier_{sample}")
     assert not d.test.detected

@@ -86,7 +86,9 @@ def test_films_of_another_film_law_under_three_loads_lack_nothing_and_show_what_
     assert ["inlet_shear_heating"] in [list(key.ids) for key in found[1].posterior.tied]
 
 
-@pytest.mark.parametrize("disc", ["glass", "sapphire", "steel"])
+@pytest.mark.parametrize(
+    "disc", ["glass", *(pytest.param(one, marks=pytest.mark.long) for one in ("sapphire", "steel"))]
+)
 def test_known_oil_of_another_film_law_lacks_nothing_on_any_disc(make, disc):
     young, poisson = {"glass": (75.0, 0.22), "sapphire": (430.0, 0.27), "steel": (207.0, 0.3)}[disc]
     modulus = 2.0 / ((1 - 0.3**2) / 207e9 + (1 - poisson**2) / (young * 1e9))

@@ -157,7 +157,7 @@ def films(dent=1.0, repeats=1):
     return film(thickness, speed, slide_roll_ratio=slip, load_N=load, oil_temperature_C=celsius)
 
 
-@pytest.mark.parametrize("repeats", [1, 2])
+@pytest.mark.parametrize("repeats", [1, pytest.param(2, marks=pytest.mark.long)])
 def test_a_corner_of_conditions_is_no_heap_of_outliers(make, repeats):
     """A dimple: films are a quarter thicker under a small load and fast sliding, and repeats agree on it."""
     found = diagnose_case(make(*films(1.25, repeats)).folder)
@@ -209,7 +209,7 @@ def test_a_temperature_that_lags_has_caught_up_after_a_pause(make):
     )
 
 
-@pytest.mark.parametrize("scatter", [1.0, 4.0])
+@pytest.mark.parametrize("scatter", [pytest.param(1.0, marks=pytest.mark.long), 4.0])
 def test_levels_left_out_are_those_of_the_condition_that_was_varied(make, scatter):
     """Seven films over nine times the speed; the load is measured and jitters by a few per cent or more."""
     rng = np.random.default_rng(2)

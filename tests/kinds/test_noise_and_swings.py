@@ -21,7 +21,7 @@ def hunting(periods, height):
     ("periods", "height"),
     [
         (8.3, 0.03),
-        (4.4, 0.2),
+        pytest.param(4.4, 0.2, marks=pytest.mark.long),
         pytest.param(19.6, 0.03, marks=pytest.mark.long),
         pytest.param(28.0, 0.03, marks=pytest.mark.long),
         pytest.param(8.25, 0.1, marks=pytest.mark.long),

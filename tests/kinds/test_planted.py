@@ -267,7 +267,7 @@ def test_the_answer_says_whether_roelands_law_would_do(make, plant, holds):
     assert ("rejected" in roelands.text) != holds
 
 
-@pytest.mark.parametrize("order", [3.0, 9.0, 17.0, 31.0])
+@pytest.mark.parametrize("order", [3.0, *(pytest.param(one, marks=pytest.mark.long) for one in (9.0, 17.0)), 31.0])
 def test_ripple_is_found_whatever_its_order(make, order):
     found = diagnose_case(make(*planted_ripple(order)).folder)
     assert found.posterior.verdict == Explanation.of("periodic_mesh")

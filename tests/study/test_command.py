@@ -1,7 +1,12 @@
 """What the study command says of earlier results, and what its page repeats of the notes on traces."""
 
+from itertools import islice
+
+import pytest
+
 from mixedlub.cli import main
 from mixedlub.commands.study import resumed
+from mixedlub.report.figures import figures
 
 
 def run(file, out, *options):
@@ -10,6 +15,12 @@ def run(file, out, *options):
 
 FEW = {"conditions__oil_temperature_C": [60], "conditions__torque_Nm": [50]}
 """Conditions of few figures."""
+
+
+@pytest.fixture(autouse=True)
+def one_figure(monkeypatch):
+    """Pages have one figure of the results, as no test here is of what the others show."""
+    monkeypatch.setattr("mixedlub.report.page.figures", lambda results: islice(figures(results), 1))
 
 
 def test_a_page_of_another_study_is_named_where_none_is_drawn(write_study, tmp_path, capsys):
@@ -36,7 +47,7 @@ def test_files_of_the_user_among_the_figures_stay_and_old_figures_go(write_study
 
 def test_the_page_says_what_is_doubtful_about_the_heights_of_a_trace(write_study, tmp_path):
     file = write_study(
-        "traced", surfaces={"few": {"profile": "shipped:0122", "cutoff_mm": 0.8, "short_cutoff_um": 2.5}}
+        "traced", **FEW, surfaces={"few": {"profile": "shipped:0122", "cutoff_mm": 0.8, "short_cutoff_um": 2.5}}
     )
     run(file, tmp_path / "o")
     page = (tmp_path / "o" / "index.html").read_text(encoding="utf-8")
