@@ -1,8 +1,17 @@
 """Fixtures shared by all tests."""
 
+import os
 from pathlib import Path
 
 import pytest
+
+
+def pytest_configure() -> None:
+    """Each worker of a parallel run keeps to one processor: forks of a diagnosis in it would only copy its memory."""
+    worker = os.environ.get("PYTEST_XDIST_WORKER", "")
+    if worker and hasattr(os, "sched_setaffinity"):
+        free = sorted(os.sched_getaffinity(0))
+        os.sched_setaffinity(0, {free[int(worker.removeprefix("gw")) % len(free)]})
 
 
 @pytest.fixture(scope="session")
