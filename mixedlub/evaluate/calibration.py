@@ -22,7 +22,8 @@ from mixedlub.evaluate.evaluation import (
     check_surfaces,
     file_name,
 )
-from mixedlub.evaluate.loss_fit import Contacts, Fit, calibrated, contacts_of
+from mixedlub.evaluate.load_stages import COMMON, OWN
+from mixedlub.evaluate.loss_fit import Contacts, Fit, Scatter, calibrated, contacts_of
 from mixedlub.gear import at_roll_angle, local_loss_factor, mesh
 from mixedlub.kinds import columns
 from mixedlub.laws.contact import mean_roughness
@@ -44,6 +45,7 @@ LAW = friction.find("loepenhaus")
 BAND = 0.25
 """Band of the source about equal friction."""
 FACTOR = "surface_factor"
+LOSS_SD, SERIES_SD = "load_dependent_loss_W_sd", "load_dependent_loss_W_sd_series"
 Ends = tuple[Number, Number]
 
 
@@ -68,6 +70,9 @@ class CalibrationFile(RigFile):
         {},
         example={"superfinished": [0.3, 1.5]},
     )
+    calculated_loss_sd: Annotated[Number, Field(ge=0.0, lt=1.0)] = key(
+        "of the calculated loss, relative and common to all readings: torque meter and load sharing", 0.0, example=0.02
+    )
     gears: Gears = key("the gear pair and its load sharing")
     lubricant: Lubricant = key("the oil, whose viscosity the law reads")
     surfaces: dict[str, SurfaceSection] = key("one table a surface, whose mean roughness the law reads")
@@ -88,7 +93,11 @@ COLUMNS = (
     columns.OIL_TEMPERATURE,
     Column("bulk_temperature_C", at_least=-60.0, at_most=400.0, required=False, meaning="of the teeth, for viscosity"),
     Column("load_dependent_loss_W", above=0.0, meaning="of the mesh, without the loss at zero load"),
-    Column("load_dependent_loss_W_sd", above=0.0, required=False, meaning="its standard deviation"),
+    Column(LOSS_SD, above=0.0, required=False, meaning="its standard deviation, own where none is given"),
+    Column(OWN, above=0.0, required=False, meaning="its standard deviation from reading to reading"),
+    Column(COMMON, at_least=0.0, at_most=1.0, required=False, meaning="relative; of one error common to all readings"),
+    Column("series", "name", required=False, meaning="readings with one load-independent loss, whose error they share"),
+    Column(SERIES_SD, above=0.0, required=False, meaning="of that error; without it the readings tell it"),
     Column("pinion_surface", "name", meaning="a surface of the file"),
     Column("gear_surface", "name", meaning="a surface of the file"),
 )
@@ -127,6 +136,21 @@ def _roughness(rig: Rig, table: Table) -> np.ndarray:
     return np.asarray(mean_roughness(first + second, first / (first + second)))
 
 
+def _scatter(file: CalibrationFile, table: Table) -> Scatter:
+    """Errors of the losses as the readings state them; in proportion to the loss where nothing is stated."""
+    own = next((name for name in (OWN, LOSS_SD) if name in table), None)
+    if SERIES_SD in table and "series" not in table:
+        raise InputError("needs the column 'series'", where=table.source, value=SERIES_SD)
+    stated = [name for name in (COMMON, SERIES_SD) if name in table]
+    stated += ["calculated_loss_sd"] if file.calculated_loss_sd else []
+    if own is None and stated:
+        raise InputError(f"needs the column {OWN} beside it", where=table.source, value=stated[0])
+    common = np.full(len(table), file.calculated_loss_sd)
+    common = np.hypot(common, table[COMMON]) if COMMON in table else common
+    series, series_sd = (table.columns.get(name) for name in ("series", SERIES_SD))
+    return Scatter(table[own or "load_dependent_loss_W"], common, own is not None, series, series_sd)
+
+
 def run(file: CalibrationFile, path: Path) -> Evaluated:
     """The coefficients, calculated over measured friction, and a law for each surface."""
     table = read_table(named_file(path.parent, file.readings, "readings"), COLUMNS)
@@ -142,9 +166,8 @@ def run(file: CalibrationFile, path: Path) -> Evaluated:
     contacts = contacts_of(points, torque, omega, nu, roughness)
     fixed = LAW.values(file.coefficients)
     free = {**file.bounds, **{f"{FACTOR}.{name}": ends for name, ends in file.surface_factor_bounds.items()}}
-    loss, spread = table["load_dependent_loss_W"], "load_dependent_loss_W_sd"
-    sd = table[spread] if spread in table.columns else None
-    fit = calibrated(contacts, loss, sd, fixed, free, table["pinion_surface"])
+    loss, surfaces = table["load_dependent_loss_W"], table["pinion_surface"]
+    fit = calibrated(contacts, loss, _scatter(file, table), fixed, free, surfaces)
     power = torque * omega * local_loss_factor(points, torque)
     readings = _readings(table, fit, power, omega * pair.operating_radius[0])
     tables = {

@@ -255,9 +255,8 @@ def _loss_table(
     found |= interval("power_loss_W", heat.loss, heat.errors.sd(np.eye(heat.loss.size)))
     found |= {"transmitted_power_W": stages.power, "loss_factor": stages.factor}
     order = np.argsort(np.concatenate([split.rows for split in splits]))
-    for name in ("load_dependent_loss_W", "mean_friction"):
-        for column in interval(name, np.empty(0), np.empty(0)):
-            found[column] = np.concatenate([split.readings[column] for split in splits])[order]
+    for column in splits[0].readings:
+        found[column] = np.concatenate([split.readings[column] for split in splits])[order]
     return pd.DataFrame(found)
 
 

@@ -14,6 +14,9 @@ from profiles.errors import InputError
 FIT_LEVEL = 0.05
 """Chance of a misfit, at the stated errors, below which these are widened to the scatter about the line."""
 
+OWN, COMMON = "load_dependent_loss_W_sd_own", "load_dependent_loss_relative_sd_common"
+"""Columns of the errors of the load-dependent loss from reading to reading, and of the one common to all readings."""
+
 
 @dataclass(frozen=True, eq=False)
 class LoadStages:
@@ -101,6 +104,8 @@ def split_loss(
     readings = interval(
         "load_dependent_loss_W", dependent @ loss, _own(errors, dependent, to_intercept @ bend, load_exponent_sd)
     )
+    readings[OWN] = errors.independent
+    readings[COMMON] = _relative(errors, dependent, dependent @ loss)
     friction = dependent * per_load[:, None]
     readings |= interval("mean_friction", friction @ loss, combined(budget(friction, per_load)))
     mean = dependent.sum(axis=0) / x.sum()
@@ -109,6 +114,12 @@ def split_loss(
         "mean_friction": (mean @ loss, budget(mean, np.array(x.size / x.sum()))),
     }
     return Split(name, rows, intercept, slope, readings, found, chi_square, notes)
+
+
+def _relative(errors: Errors, dependent: np.ndarray, loss: np.ndarray) -> np.ndarray:
+    """Relative standard deviation of the load-dependent loss (W) by errors common to all; zero where there is none."""
+    moved = combined({name: dependent @ one for name, one in errors.common.items()})
+    return np.divide(np.abs(moved), np.abs(loss), out=np.zeros_like(loss), where=np.abs(loss) > 0.0)
 
 
 def _own(errors: Errors, weights: np.ndarray, bend: float, exponent_sd: float) -> np.ndarray:

@@ -10,6 +10,7 @@ import pandas as pd
 from scipy.optimize import least_squares
 from scipy.stats import t as student
 
+from mixedlub.evaluate.uncertainty import NORMAL_90
 from mixedlub.friction.loepenhaus import loepenhaus
 from mixedlub.gear import Mesh
 from mixedlub.laws.contact import line_hertz_pressure
@@ -67,11 +68,47 @@ def contacts_of(
 
 
 @dataclass(frozen=True, eq=False)
+class Scatter:
+    """Errors of n measured losses.
+
+    ``own`` (W): standard deviations from reading to reading, in proportion only unless ``known``. ``common``: relative
+    standard deviation of one error that scales all losses. ``series`` names the readings whose load-independent loss
+    was taken off as one; its error moves them alike, by an unknown amount or one of standard deviation ``series_sd``
+    (W).
+    """
+
+    own: np.ndarray
+    common: np.ndarray
+    known: bool = True
+    series: np.ndarray | None = None
+    series_sd: np.ndarray | None = None
+
+    def nuisance(self) -> tuple[list[str], np.ndarray, np.ndarray]:
+        """Names of the shared errors, how each moves the readings (n, k), and prior standard deviations (inf: none).
+
+        The first scales the losses, the others are shifts in units of the mean ``own``.
+        """
+        names, moved, prior = ["the error common to all"], [self.common], [1.0]
+        kinds = np.unique([] if self.series is None else self.series)
+        unit = float(self.own.mean())
+        for name in kinds:
+            here = self.series == name
+            names.append(f"the load-independent loss of {name}")
+            moved.append(np.where(here, unit, 0.0))
+            prior.append(np.inf if self.series_sd is None else float(self.series_sd[here].mean()) / unit)
+        return names, np.stack(moved, axis=1), np.array(prior)
+
+
+@dataclass(frozen=True, eq=False)
 class Fit:
-    """Free coefficients by name with their covariance; ``at_bound`` names those that a bound holds."""
+    """Free coefficients by name with their covariance; ``at_bound`` names those that a bound holds.
+
+    ``shared`` (p,) is the part of each variance that errors of stated size bring which readings share.
+    """
 
     values: Mapping[str, float]
     covariance: np.ndarray
+    shared: np.ndarray
     at_bound: tuple[str, ...]
     freedom: int
     chi_square: float
@@ -85,8 +122,9 @@ class Fit:
 
     @property
     def half_width(self) -> np.ndarray:
-        """Half widths of the 90 % intervals."""
-        return np.asarray(student.isf(0.05, self.freedom) * self.sd)
+        """Half widths of the 90 % intervals; few readings widen what their scatter tells."""
+        own = self.sd**2 - self.shared
+        return np.sqrt(student.isf(0.05, self.freedom) ** 2 * own + NORMAL_90**2 * self.shared)
 
     @property
     def correlations(self) -> pd.DataFrame:
@@ -100,29 +138,35 @@ class Fit:
 def calibrated(
     contacts: Contacts,
     loss: np.ndarray,
-    sd: np.ndarray | None,
+    scatter: Scatter,
     fixed: Mapping[str, float],
     bounds: Mapping[str, tuple[float, float]],
     surfaces: np.ndarray,
 ) -> Fit:
     r"""The free coefficients that bring the calculated loss closest to the measured one.
 
-    .. math:: \min \sum_i \left(\frac{P_i(c) - P_{VZP,i}}{\sigma_i}\right)^2,\quad c_{low} \le c \le c_{high}
+    .. math:: \min_{c,\,e,\,\delta} \sum_i
+        \left(\frac{P_i(c)\,(1 + s_i e) + \delta_{k(i)} - P_{VZP,i}}{\sigma_i}\right)^2
+        + e^2 + \sum_k \left(\frac{\delta_k}{\sigma_k}\right)^2,\quad c_{low} \le c \le c_{high}
 
     ``bounds`` are by coefficient, or by ``surface_factor.NAME``; ``surfaces`` (n,) names the surface of each reading.
-    Without ``sd`` errors are in proportion to the loss, and their size follows from the scatter; with it they are
-    widened where the readings scatter more. The covariance is that of the linearised model.
+    Own errors that are known are widened where the readings scatter more; the size of others follows from the misfit.
+    The covariance is that of the linearised model.
 
     Source: "Measurement and Modelling of Friction for Cylindrical Gears with Pitch Line Velocities up to 100 m/s",
     equation 9 and figure 8.
     """
     names = list(bounds)
     low, high = (np.array([bounds[name][end] for name in names]) for end in (0, 1))
-    freedom = loss.size - len(names)
+    shared, moved, prior = scatter.nuisance()
+    freedom = loss.size - len(names) - int(np.isinf(prior).sum())
     if freedom < 1:
         rule = f"{len(names)} free coefficients need more readings than that"
+        if np.isinf(prior).any():
+            rule = (
+                f"{len(names)} free coefficients and {int(np.isinf(prior).sum())} series need more readings than that"
+            )
         raise InputError(rule, where="readings", value=loss.size)
-    scale = loss if sd is None else sd
 
     def of(x: np.ndarray) -> np.ndarray:
         given = dict(zip(names, x, strict=True))
@@ -130,23 +174,38 @@ def calibrated(
         factor = np.array([given.get(f"surface_factor.{name}", 1.0) for name in surfaces])
         return contacts.loss({**fixed, **own}, factor)
 
+    def misfit(x: np.ndarray) -> np.ndarray:
+        calculated, errors = of(x[: len(names)]), x[len(names) :]
+        found = calculated * (1.0 + moved[:, 0] * errors[0]) + moved[:, 1:] @ errors[1:]
+        return np.concatenate([(found - loss) / scatter.own, errors / prior])
+
     start = np.where(low > 0.0, np.sqrt(np.abs(low * high)), 0.5 * (low + high))
     with np.errstate(all="ignore"):
         if not np.isfinite(of(start)).all():
             middle = dict(zip(names, start.round(6).tolist(), strict=True))
             raise InputError("the law has no finite loss in the middle of the bounds", where="bounds", value=middle)
-    found = least_squares(lambda x: (of(x) - loss) / scale, start, bounds=(low, high), x_scale=high - low, xtol=1e-12)
+    open_, rest = np.full(prior.size, np.inf), np.ones(prior.size)
+    found = least_squares(
+        misfit,
+        np.concatenate([start, 0.0 * rest]),
+        bounds=(np.concatenate([low, -open_]), np.concatenate([high, open_])),
+        x_scale=np.concatenate([high - low, rest]),
+        xtol=1e-12,
+    )
     if not found.success:
         raise RunError(f"the fit of {', '.join(names)} has not converged: narrow the bounds")
     free = found.active_mask == 0
     chi_square = float(2.0 * found.cost)
-    spread = chi_square / freedom
-    covariance = np.full((len(names), len(names)), np.nan)
-    covariance[np.ix_(free, free)] = _inverse(found.jac[:, free], [n for n, f in zip(names, free) if f])
-    covariance *= spread if sd is None else max(spread, 1.0)
-    held = tuple(name for name, own in zip(names, free, strict=True) if not own)
-    values = dict(zip(names, map(float, found.x), strict=True))
-    return Fit(values, covariance, held, freedom, chi_square, of(found.x))
+    spread = max(chi_square / freedom, 1.0) if scatter.known else chi_square / freedom
+    jacobian = found.jac[:, free]
+    jacobian[: loss.size] /= np.sqrt(spread)
+    gain = np.full((free.size, jacobian.shape[0]), np.nan)
+    gain[free] = _inverse(jacobian, [n for n, f in zip(names + shared, free, strict=True) if f]) @ jacobian.T
+    gain = gain[: len(names)]
+    held = tuple(name for name, own in zip(names, free[: len(names)], strict=True) if not own)
+    values = dict(zip(names, map(float, found.x), strict=False))
+    part = (gain[:, loss.size :] ** 2).sum(axis=1)
+    return Fit(values, gain @ gain.T, part, held, freedom, chi_square, of(found.x[: len(names)]))
 
 
 def _inverse(jacobian: np.ndarray, names: list[str]) -> np.ndarray:

@@ -9,8 +9,9 @@ import pytest
 
 from mixedlub.cli import main
 from mixedlub.evaluate import evaluate
+from mixedlub.evaluate.calibration import COLUMNS
 from mixedlub.validation.benches import gear_losses as bench
-from mixedlub.validation.benches.calorimetric import Gear
+from mixedlub.validation.benches.calorimetric import Errors, Gear
 from mixedlub.validation.benches.tables import as_csv
 from profiles.errors import InputError
 from tests.evaluate.helpers import assert_intervals_hold, written
@@ -105,6 +106,58 @@ def test_a_coefficient_at_a_bound_has_no_interval_and_is_told(tmp_path, exact):
     assert any("c2 is at a bound" in note for note in found.notes)
 
 
+def told(columns, own=0.02, **further):
+    """Exact losses with stated standard deviations."""
+    loss = np.array(columns["load_dependent_loss_W"])
+    return {**columns, "load_dependent_loss_W_sd_own": (own * loss).tolist(), **further}
+
+
+ONE = {
+    "coefficients": {"c2": PLANTED["c2"]},
+    "bounds": {"c1": [1e-3, 1.0], "c2": None},
+    "surface_factor_bounds": {"superfinished": None},
+}
+
+
+def one_coefficient(folder, columns):
+    """Standard deviation of c1 alone, in which the law is linear, over c1; and the derivative of the loss by it."""
+    found = found_of(folder, columns, **ONE)
+    row = coefficients(found).loc["c1"]
+    return row["sd"] / row["value"], found.tables["readings"]["calculated_load_dependent_loss_W"].to_numpy()
+
+
+def test_an_error_common_to_all_widens_a_linear_coefficient_by_itself(tmp_path, exact):
+    ground = {name: column[:18] for name, column in exact.items()}
+    wide, _ = one_coefficient(tmp_path, told(ground, load_dependent_loss_relative_sd_common=[0.015] * 18))
+    assert wide == pytest.approx(np.hypot(0.02 / np.sqrt(18), 0.015), rel=5e-3)
+    by_key = coefficients(found_of(tmp_path, told(ground), **ONE, calculated_loss_sd=0.015)).loc["c1"]
+    assert by_key["sd"] / by_key["value"] == pytest.approx(wide, rel=1e-6)
+
+
+@pytest.mark.parametrize("series_sd", [None, 15.0])
+def test_a_load_independent_loss_of_a_series_widens_as_a_free_or_known_intercept(tmp_path, exact, series_sd):
+    ground = {name: column[:18] for name, column in exact.items()}
+    series = [f"{speed:.0f} rpm {oil:.0f} C" for speed, oil in zip(ground["speed_rpm"], ground["oil_temperature_C"])]
+    columns = told(ground, series=series)
+    if series_sd:
+        columns |= {"load_dependent_loss_W_sd_series": [series_sd] * 18}
+    wide, loss = one_coefficient(tmp_path, columns)
+    own = 0.02 * np.array(ground["load_dependent_loss_W"])
+    design = np.stack([loss, *(np.array(series) == name for name in np.unique(series))], axis=1) / own[:, None]
+    normal = design.T @ design
+    normal[1:, 1:] += np.eye(6) / series_sd**2 if series_sd else 0.0
+    assert wide == pytest.approx(np.linalg.inv(normal)[0, 0] ** 0.5, rel=5e-3)
+
+
+@pytest.mark.parametrize("name", ["load_dependent_loss_relative_sd_common", "load_dependent_loss_W_sd_series"])
+def test_errors_that_readings_share_need_their_own_beside_them(tmp_path, exact, name):
+    shared = {name: [0.01] * 36, "series": ["one"] * 36}
+    with pytest.raises(InputError, match=f"{name}: needs the column load_dependent_loss_W_sd_own|'{name}': needs"):
+        found_of(tmp_path, {**exact, **shared})
+    with pytest.raises(InputError, match="needs the column 'series'"):
+        found_of(tmp_path, told(exact, load_dependent_loss_W_sd_series=[5.0] * 36))
+
+
 BAD = [
     ({"coefficients": {"c5": 0.0, "c6": None}, "bounds": {"c6": [0.1, 3.0]}}, r"do not tell these apart.*"),
     ({"coefficients": {"c3": None}, "bounds": {"c3": [1.0, 9.0]}}, "no finite loss in the middle of the bounds"),
@@ -133,6 +186,25 @@ def test_intervals_of_coefficients_hold_in_200_runs(tmp_path, exact):
     truth, value, low, high = ([] for _ in range(4))
     for seed in range(200):
         found = coefficients(found_of(tmp_path, scattered(exact, seed))).loc[list(PLANTED)]
+        truth.append(list(PLANTED.values()))
+        value.append(found["value"].to_numpy())
+        low.append(found["low90"].to_numpy())
+        high.append(found["high90"].to_numpy())
+    assert_intervals_hold(*map(np.array, (truth, value, low, high)))
+
+
+@pytest.mark.long
+def test_intervals_hold_in_200_runs_of_a_calorimeter_whose_errors_are_common(tmp_path, exact):
+    truth, value, low, high = ([] for _ in range(4))
+    errors = Errors()
+    both = float(np.hypot(errors.torque, errors.loss_factor))
+    for seed in range(200):
+        readings = bench.calorimeter(exact, errors, seed)
+        heat = written(tmp_path, "calorimetric", {"readings.csv": as_csv(readings, 9)})
+        loss = evaluate("calorimetric", heat).tables["loss"]
+        columns = {one.name: loss[one.name].tolist() for one in COLUMNS if one.name in loss}
+        columns["series"] = [name.replace(",", "") for name in columns["series"]]
+        found = coefficients(found_of(tmp_path, columns, calculated_loss_sd=both)).loc[list(PLANTED)]
         truth.append(list(PLANTED.values()))
         value.append(found["value"].to_numpy())
         low.append(found["low90"].to_numpy())

@@ -86,17 +86,47 @@ class Bench:
     errors: Errors = field(default_factory=Errors)
 
 
+@dataclass(frozen=True)
+class Calorimeter:
+    """Meters of one rig with errors that stay the same over all readings."""
+
+    flow_gain: float
+    torque_gain: float
+    density_gain: float
+    heat_gain: float
+    rise_zero: float
+    share: float
+
+    @classmethod
+    def drawn(cls, errors: Errors, share: float, random: np.random.Generator) -> Calorimeter:
+        """Meters with errors drawn at random."""
+        flow, torque = 1.0 + errors.flow * random.normal(), 1.0 + errors.torque * random.normal()
+        density, heat = 1.0 + errors.density * random.normal(), 1.0 + errors.specific_heat * random.normal()
+        zero = errors.rise * random.normal()
+        return cls(flow, torque, density, heat, zero, share + errors.shaft_share * random.normal())
+
+    def heat(
+        self, loss: float, flow: float, inlet: float, errors: Errors, random: np.random.Generator
+    ) -> tuple[float, float, float]:
+        """Flow (L/min), temperature of inlet and outlet as read where the gears lose ``loss`` (W)."""
+        flow *= 1.0 + 0.01 * random.normal()
+        # An ester at the inlet: 1000 kg/m3 at 15 degrees, less 0.07 % a kelvin.
+        density = 1000.0 * (1.0 - 7e-4 * (inlet - 15.0)) * self.density_gain
+        rise = loss / (1.0 - self.share) / (density * 2000.0 * self.heat_gain * flow / 60e3)
+        noisy = rise + self.rise_zero + errors.rise_noise * random.normal()
+        return flow * self.flow_gain * (1.0 + errors.flow_noise * random.normal()), inlet, inlet + noisy
+
+
+READ = ("run", "torque_Nm", "speed_rpm", "oil_flow_L_min", "oil_inlet_temperature_C", "oil_outlet_temperature_C")
+
+
 def recorded(bench: Bench, gear: Gear, seed: int) -> tuple[Columns, list[dict[str, float]]]:
     """Readings of the programme, and for each the loss, idle loss and mean friction behind it."""
     random, e = np.random.default_rng(seed), bench.errors
-    flow_gain, torque_gain = 1.0 + e.flow * random.normal(), 1.0 + e.torque * random.normal()
-    density_gain, heat_gain = 1.0 + e.density * random.normal(), 1.0 + e.specific_heat * random.normal()
-    rise_zero = e.rise * random.normal()
-    share = bench.shaft_share + e.shaft_share * random.normal()
+    meters = Calorimeter.drawn(e, bench.shaft_share, random)
     sliding = bench.sliding * (1.0 + e.loss_factor * random.normal())
     radius = gear.centre_distance * gear.teeth[0] / sum(gear.teeth) * 1e-3
-    names = ("run", "torque_Nm", "speed_rpm", "oil_flow_L_min", "oil_inlet_temperature_C", "oil_outlet_temperature_C")
-    columns: Columns = {name: [] for name in (*names, "pinion_surface", "gear_surface")}
+    columns: Columns = {name: [] for name in (*READ, "pinion_surface", "gear_surface")}
     truths = []
     run = 0
     for surface, factor in bench.surfaces:
@@ -108,18 +138,9 @@ def recorded(bench: Bench, gear: Gear, seed: int) -> tuple[Columns, list[dict[st
                 friction = 0.030 * factor * (speed / 20.0) ** -0.21 * (torque / 700.0) ** exponent
                 idle = 60.0 * (speed / 20.0) ** 2.2
                 loss = idle + friction * sliding * torque * omega
-                flow = bench.flow * (1.0 + 0.01 * random.normal())
-                # An ester at the inlet: 1000 kg/m3 at 15 degrees, less 0.07 % a kelvin.
-                density = 1000.0 * (1.0 - 7e-4 * (bench.inlet - 15.0)) * density_gain
-                rise = loss / (1.0 - share) / (density * 2000.0 * heat_gain * flow / 60e3)
-                noisy = rise + rise_zero + e.rise_noise * random.normal()
-                read = (
-                    *(float(run), torque / torque_gain, omega * 30.0 / math.pi),
-                    *(flow * flow_gain * (1.0 + e.flow_noise * random.normal()), bench.inlet, bench.inlet + noisy),
-                )
-                for name, value in zip(names, read, strict=True):
+                heat = meters.heat(loss, bench.flow, bench.inlet, e, random)
+                read = (float(run), torque / meters.torque_gain, omega * 30.0 / math.pi, *heat)
+                for name, value in zip(columns, (*read, surface, surface), strict=True):
                     columns[name].append(value)
-                for name in ("pinion_surface", "gear_surface"):
-                    columns[name].append(surface)
                 truths.append({"loss": loss, "idle": idle, "friction": friction, "speed": speed})
     return columns, truths

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.validation.benches.calorimetric import Gear
+from mixedlub.validation.benches.calorimetric import READ, Calorimeter, Errors, Gear
 
 Columns = dict[str, list[Any]]
 LAW = {"c1": 0.045, "c2": -0.22, "c3": 1e-4, "c4": 0.0, "c5": 0.003, "c6": 1.0, "c7": 0.25, "c8": 0.1, "c9": 0.02}
@@ -104,3 +104,20 @@ def recorded(bench: Bench, gear: Gear, seed: int) -> Columns:
                     for name, cell in zip(found, (*row, surface, surface), strict=True):
                         found[name].append(cell)
     return found
+
+
+def calorimeter(exact: Columns, errors: Errors, seed: int, *, flow: float = 12.0, share: float = 0.065) -> Columns:
+    """What a calorimeter reads of exact losses and of the idle loss of each speed, at the errors of its meters."""
+    random = np.random.default_rng(seed)
+    meters = Calorimeter.drawn(errors, share, random)
+    sliding = 1.0 + errors.loss_factor * random.normal()
+    found: Columns = {name: [] for name in READ}
+    rows = zip(
+        *(exact[n] for n in ("torque_Nm", "speed_rpm", "oil_temperature_C", "load_dependent_loss_W")), strict=True
+    )
+    for run, (torque, speed, inlet, loss) in enumerate(rows, start=1):
+        idle = 60.0 * (speed / 2000.0) ** 2.2
+        heat = meters.heat(idle + sliding * loss, flow, inlet, errors, random)
+        for name, value in zip(READ, (run, torque / meters.torque_gain, speed, *heat), strict=True):
+            found[name].append(value)
+    return {**found, **{name: exact[name] for name in ("pinion_surface", "gear_surface")}}
