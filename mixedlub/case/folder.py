@@ -103,7 +103,7 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
     def table(name: str, columns: tuple[Column, ...]) -> Table | None:
         path = folder / f"{name}.csv"
         if path.exists():
-            return read_table(path, columns)
+            return read_table(path, columns, imported=True)
         if name == "conditions" or not need_recordings:
             return None
         raise InputError(f"no such file{other_recordings(folder)}", where=str(path))
@@ -189,7 +189,7 @@ def _checked(
 def read_conditions(case: Case, path: Path) -> Table:
     """Another table of conditions for the case; rows are numbered after the recorded runs where it has no ``run``."""
     columns = _columns(case.kind, case.system, False)
-    return _with_filled_sds(read_table(path, columns, first_run=_free_run(case)), f"{case.quantity}_sd")
+    return _with_filled_sds(read_table(path, columns, first_run=_free_run(case), imported=True), f"{case.quantity}_sd")
 
 
 def conditions_for(case: Case, at: Frame) -> Table:

@@ -8,8 +8,9 @@ from typing import Annotated
 import typer
 
 from mixedlub.atomic import writing
-from mixedlub.commands.console import busy, echo, input_errors_from, note, output_folder
+from mixedlub.commands.console import busy, echo, input_errors_from, note, output_folder, print_findings
 from mixedlub.commands.figure_options import FiguresOrTables, Formats, chosen_formats
+from mixedlub.schema.findings import collected
 
 NAME = "evaluate"
 EXAMPLE = "mixedlub new calorimetric --out rig && mixedlub evaluate calorimetric rig/calorimetric.toml"
@@ -41,8 +42,9 @@ def command(
     from mixedlub.report.style import save_all
 
     formats = chosen_formats(format_)
-    with input_errors_from(str(file)), busy("evaluating"):
+    with input_errors_from(str(file)), busy("evaluating"), collected() as findings:
         found = evaluate(method, file)
+    print_findings(findings)
     for text in found.notes:
         note(text)
     folder = output_folder(out, NAME, file.stem)

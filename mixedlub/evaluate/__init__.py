@@ -7,7 +7,7 @@ from pathlib import Path
 
 from mixedlub.discovery import declared
 from mixedlub.evaluate.evaluation import Evaluated, Evaluation
-from mixedlub.schema.toml_file import parse, read_toml
+from mixedlub.schema.toml_file import keys_of, parse, read_toml
 from profiles.errors import InputError, nearest
 
 __all__ = ["EVALUATIONS", "Evaluated", "Evaluation", "evaluate"]
@@ -44,4 +44,5 @@ def evaluate(name: str, path: Path | str) -> Evaluated:
     if name not in EVALUATIONS:
         raise InputError(f"no such evaluation; {nearest(name, EVALUATIONS)}", where="METHOD", value=name)
     one, path = EVALUATIONS[name], Path(path)
-    return one.run(parse(one.file, read_toml(path), str(path)), path)
+    with keys_of(one.file, path):
+        return one.run(parse(one.file, read_toml(path), str(path)), path)

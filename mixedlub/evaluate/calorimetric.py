@@ -14,6 +14,7 @@ from pydantic import Field, model_validator
 
 from mixedlub.evaluate.evaluation import CaseDraft, Curve, Evaluated, Evaluation, Panel, case_draft, check_surfaces
 from mixedlub.evaluate.load_stages import LoadStages, Split, split_loss
+from mixedlub.evaluate.outlying import check_lines
 from mixedlub.evaluate.uncertainty import Errors, combined, ends_of, interval
 from mixedlub.gear import GearPair, Sharing, local_loss_factor, mesh
 from mixedlub.kinds import columns
@@ -206,6 +207,8 @@ def run(file: CalorimetricFile, path: Path) -> Evaluated:
     factor = loss_factor(pair, shared, table["torque_Nm"])
     stages = LoadStages(table["torque_Nm"], table["torque_Nm"] * omega, factor)
     names, index = _series(table)
+    channel = f"{table.source}, loss from flow and temperatures (W)"
+    check_lines(stages.product, heat.loss, index, table["run"], channel, exponent=file.friction.load_exponent_sd)
     splits = []
     for number, name in enumerate(names):
         rows = np.flatnonzero(index == number)

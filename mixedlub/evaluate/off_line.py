@@ -15,6 +15,7 @@ from mixedlub.evaluate.evaluation import CaseDraft, Curve, Evaluated, Evaluation
 from mixedlub.evaluate.frequency_response import Response, division
 from mixedlub.evaluate.mesh_force import Found, Meters, cycle_pattern, friction_of_cycle
 from mixedlub.evaluate.mesh_recording import MeshRecording, SpurGearFile, mesh_friction_case
+from mixedlub.evaluate.outlying import check_turns
 from mixedlub.evaluate.synchronous import Average, cycle_average, few_turns
 from mixedlub.evaluate.uncertainty import ends_of, interval
 from mixedlub.rig.build import gear_pair, sharing
@@ -158,6 +159,7 @@ def _average(one: MeshRecording, teeth: int, samples: int, folder: Path) -> Aver
     path = named_file(folder, one.file, "recordings.file")
     table = read_table(path, RECORDING, key=("revolution", "shaft_angle_deg"))
     turn, angle, displacement = (table[c.name] for c in RECORDING)
+    check_turns(turn, angle, {DISPLACEMENT.name: displacement}, table.source)
     return cycle_average(turn, angle, displacement, teeth, samples, source=table.source)
 
 

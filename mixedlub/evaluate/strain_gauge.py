@@ -15,6 +15,7 @@ from pydantic import Field
 from mixedlub.evaluate.evaluation import CaseDraft, Curve, Evaluated, Evaluation, Panel
 from mixedlub.evaluate.influence import Influence, fit_influence
 from mixedlub.evaluate.mesh_recording import MeshRecording, SpurGearFile, mesh_friction_case
+from mixedlub.evaluate.outlying import check_turns
 from mixedlub.evaluate.synchronous import Average, few_turns, synchronous_average
 from mixedlub.evaluate.tooth_forces import (
     Forces,
@@ -135,6 +136,8 @@ def _average(file: StrainGaugeFile, one: MeshRecording, folder: Path) -> Average
     path = named_file(folder, one.file, "recordings.file")
     table = read_table(path, (*RECORDING, *_gauge_columns(file)), key=("revolution", "shaft_angle_deg"))
     strains = np.stack([table[name] for name in file.gauges.columns], axis=1)
+    gauges = {name: table[name] for name in file.gauges.columns}
+    check_turns(table["revolution"], table["shaft_angle_deg"], gauges, table.source)
     step = 360.0 / file.friction.samples_per_revolution
     return synchronous_average(table["revolution"], table["shaft_angle_deg"], strains, step, source=table.source)
 

@@ -11,6 +11,7 @@ import pandas as pd
 from pydantic import Field
 
 from mixedlub.evaluate.evaluation import CaseDraft, Curve, Evaluated, Evaluation, Panel, case_draft, check_surfaces
+from mixedlub.evaluate.outlying import check_repeats
 from mixedlub.evaluate.uncertainty import Errors, combined, ends_of, interval
 from mixedlub.kinds import columns
 from mixedlub.kinds.disc import reduced_radius
@@ -95,7 +96,8 @@ def motion(table: Table, radii_mm: tuple[float, float]) -> tuple[np.ndarray, np.
     if np.any(mean <= 0.0):
         row = int(np.argmin(mean))
         place = f"{table.source}, run {table['run'][row]}: speed_1_rpm and speed_2_rpm"
-        raise InputError("the discs must roll: their mean surface speed", where=place, value=float(mean[row]))
+        rule = "mean surface speed of the discs (m/s) must be above 0: they roll on each other"
+        raise InputError(rule, where=place, value=float(mean[row]))
     return mean, (first - second) / mean
 
 
@@ -208,6 +210,7 @@ def run(file: TwoDiscFile, path: Path) -> Evaluated:
     levels = np.stack([*map(near_values, conditions.values()), *named], axis=1)
     pairs = np.delete(levels, CONDITIONS.index("slide_roll_ratio"), axis=1)
     value, errors = traction(file, table, pairs, ratio)
+    check_repeats(value, levels, table["run"], f"{table.source}, friction_torque_Nm over radius and load")
     found: dict[str, Any] = {"run": table["run"], **{name: table[name] for name in surfaces}, **conditions}
     found |= {"sliding_speed_m_s": ratio * speed, **hertz(file.contact, table["load_N"])}
     found |= interval("friction_coefficient", value, errors.sd(np.eye(value.size)))

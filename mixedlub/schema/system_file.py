@@ -292,6 +292,8 @@ def in_file(error: InputError, file: str) -> InputError:
     >>> print(in_file(InputError("teeth interfere", where="teeth", value=[5, 60]), "system.toml"))
     system.toml: gears.teeth: [5, 60]: teeth interfere
     """
+    if error.where.startswith(file):
+        return error
     name = re.split(r"[.,\[]", error.where)[0]
     for table in tables(System):
         own = table.name in ("gears", "gears.load_sharing") and name == error.where

@@ -185,22 +185,28 @@ def with_hyphens(text: str) -> str:
 
 
 def read_table(
-    path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] = ("run",), first_run: int | None = None
+    path: Path,
+    columns: tuple[Column, ...],
+    *,
+    key: tuple[str, ...] = ("run",),
+    first_run: int | None = None,
+    imported: bool = False,
 ) -> Table:
     """Read a CSV with the given columns, unique in the columns of ``key``; others are ignored and reported.
 
-    Where there is no column ``run``, rows are numbered from ``first_run`` on, if that is given.
+    Where there is no column ``run``, rows are numbered from ``first_run`` on, if that is given. Tables that
+    `mixedlub import` writes are ``imported``: messages on other formats and units name it.
     """
-    where = str(path)
+    where, advice = str(path), _IMPORTED if imported else _SAVED
     try:
         refuse_no_file(path)
         text = with_hyphens(path.read_text(encoding="utf-8-sig"))
     except UnicodeDecodeError:
-        raise InputError(f"is not text in UTF-8; {_IMPORTED}", where=where) from None
+        raise InputError(f"is not text in UTF-8; {advice}", where=where) from None
     except OSError as error:
         raise InputError(f"cannot be read ({error.strerror})", where=where) from None
     if "\0" in text:
-        raise InputError(f"is not a text table; {_IMPORTED}", where=where)
+        raise InputError(f"is not a text table; {advice}", where=where)
     try:
         reader = csv.reader(text.splitlines())
         lines = [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
@@ -209,11 +215,11 @@ def read_table(
     header = [cell.strip() for cell in lines[0][1]] if lines else []
     separator = next((mark for mark in (";", "\t") if len(header) == 1 and mark in header[0]), None)
     if separator is not None:
-        rule = f"columns are separated by commas, numbers have a decimal point; {_IMPORTED}"
+        rule = f"columns are separated by commas, numbers have a decimal point; {advice}"
         raise InputError(rule, where=where, value=separator)
     if first_run is None or RUN.name in map(str.lower, header):
-        return _table(lines, columns, key, path.name, where)
-    found = _table(lines, tuple(c for c in columns if c != RUN), (), path.name, where)
+        return _table(lines, columns, key, path.name, where, imported=imported)
+    found = _table(lines, tuple(c for c in columns if c != RUN), (), path.name, where, imported=imported)
     runs = np.arange(first_run, first_run + len(found))
     text = f"no column {RUN.name}: rows are numbered from {runs[0]} to {runs[-1]}"
     report(finding("runs_numbered", text, path.name))
@@ -258,7 +264,7 @@ def table_of(frame: pd.DataFrame, columns: tuple[Column, ...], source: str = "ta
         frame = frame.assign(**{RUN.name: np.arange(1, len(frame) + 1)})
     rows = frame.astype(object).where(frame.notna(), "").astype(str).to_numpy().tolist()
     lines = [(0, list(map(str, frame.columns))), *enumerate(rows, start=1)]
-    return _table(lines, columns, (RUN.name,), source, source, unit="row")
+    return _table(lines, columns, (RUN.name,), source, source, unit="row", imported=True)
 
 
 def _table(
@@ -268,6 +274,8 @@ def _table(
     source: str,
     where: str,
     unit: str = "line",
+    *,
+    imported: bool,
 ) -> Table:
     """The table of a header and rows of cells, each with its line number (or row of a frame, as ``unit`` says)."""
     if len(lines) < 2:
@@ -280,10 +288,12 @@ def _table(
     unknown = [name for name in header if name and name not in known]
     for column in columns:
         if column.required and column.name not in header:
-            raise InputError(f"column {column.name!r} is missing{_instead(column, unknown)}", where=f"{where}: header")
+            raise InputError(
+                f"column {column.name!r} is missing{_instead(column, unknown, imported)}", where=f"{where}: header"
+            )
     if unknown:
         absent = [column for column in columns if column.name not in header]
-        for found in _ignored(source, unknown, absent):
+        for found in _ignored(source, unknown, absent, imported):
             report(found)
     cells = _parse(lines, header, known, where, unit)
     together = list(zip(*(cells[name].tolist() for name in key), strict=True))
@@ -298,34 +308,37 @@ def _table(
 
 
 _IMPORTED = "use `mixedlub import`, which reads it and writes the table of a case"
-_CONVERTED = "units are not converted here; `mixedlub import` does"
+_SAVED = "save it as comma-separated text in UTF-8"
+_CONVERTED = {True: "units are not converted here; `mixedlub import` does", False: "units are not converted here"}
 
 
-def _instead(column: Column, unknown: list[str]) -> str:
+def _instead(column: Column, unknown: list[str], imported: bool) -> str:
     """Hint on a missing column: the same in another unit, a similar name, or the names in the file.
 
-    >>> _instead(Column("speed_rpm"), ["sped_rpm", "colour"]), _instead(Column("speed_rpm"), ["speed_rad_s"])
-    ("; the file has 'sped_rpm'", "; the file has 'speed_rad_s': units are not converted here; `mixedlub import` does")
+    >>> _instead(Column("speed_rpm"), ["sped_rpm", "colour"], True)
+    "; the file has 'sped_rpm'"
+    >>> _instead(Column("speed_rpm"), ["speed_rad_s"], True)
+    "; the file has 'speed_rad_s': units are not converted here; `mixedlub import` does"
     """
     if not unknown:
         return ""
     other = _other_unit(column, unknown)
     if other:
-        return f"; the file has {other!r}: {_CONVERTED}"
+        return f"; the file has {other!r}: {_CONVERTED[imported]}"
     close = difflib.get_close_matches(column.name, unknown, n=1, cutoff=0.5)
     return (
         f"; the file has {close[0]!r}" if close else f"; the file has {', '.join(map(repr, unknown))}, not known here"
     )
 
 
-def _ignored(file: str, unknown: list[str], absent: list[Column]) -> Iterator[Finding]:
+def _ignored(file: str, unknown: list[str], absent: list[Column], imported: bool) -> Iterator[Finding]:
     """Texts on unknown columns; those that may be an ``absent`` column are reported one by one."""
     converted = [other for column in absent if (other := _other_unit(column, unknown))]
     others = []
     for name in unknown:
         close = None if name in converted else _nearest_absent(name, absent)
         if name in converted:
-            yield finding("column_other_unit", f"column ignored: {_CONVERTED}", f"{file}, {name}")
+            yield finding("column_other_unit", f"column ignored: {_CONVERTED[imported]}", f"{file}, {name}")
         elif close is not None:
             yield finding("column_near_known", f"column ignored; nearest known: {close!r}", f"{file}, {name}")
         else:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from itertools import chain
 from pathlib import Path
 from typing import Any, TypeVar
@@ -57,6 +58,18 @@ def parse(model: type[T], data: Mapping[str, Any], where: str) -> T:
         return model.model_validate(data, context={"folder": Path(where).parent})
     except ValidationError as error:
         raise _refused(model, error.errors(), where) from None
+
+
+@contextmanager
+def keys_of(model: type[Section], path: Path) -> Iterator[None]:
+    """Add the file to errors whose place is a key of it; those that name a table beside it are unchanged."""
+    try:
+        yield
+    except InputError as error:
+        place = re.fullmatch(r"(\w+)[^:,]*", error.where)
+        if place is None or place[1] not in model.model_fields or (path.parent / error.where).is_file():
+            raise
+        raise InputError(error.rule, where=f"{path}: {error.where}", value=error.value) from None
 
 
 def _refused(model: type[Section], errors: list[Any], where: str) -> InputError:

@@ -61,3 +61,36 @@ def test_a_file_of_another_evaluation_is_refused(tmp_path):
     main(["new", "calorimetric", "--out", str(tmp_path)])
     with pytest.raises(InputError, match="mixedlub-strain-gauge/1"):
         evaluate("strain-gauge", tmp_path / "calorimetric.toml")
+
+
+TABLES = [
+    ("calorimetric", "readings", "readings"),
+    ("two-disc", "readings", "readings"),
+    ("off-line", "response", "shaft.response"),
+    ("strain-gauge", "calibration", "calibration"),
+    ("regression", "readings", "readings"),
+]
+
+
+@pytest.mark.parametrize(("name", "key", "place"), TABLES)
+@pytest.mark.parametrize("content", [None, b"\x89PNG\r\n\xff\xfe"], ids=["folder", "binary"])
+def test_a_table_that_is_none_is_refused_with_its_file(tmp_path, capsys, name, key, place, content):
+    assert main(["new", name, "--out", str(tmp_path)]) == 0
+    file, table = tmp_path / f"{name}.toml", tmp_path / "sub"
+    table.mkdir() if content is None else table.write_bytes(content)
+    text = re.sub(rf'^{key} = ".*"', f'{key} = "sub"', file.read_text("utf-8"), flags=re.MULTILINE)
+    file.write_text(text, encoding="utf-8")
+    capsys.readouterr()
+    assert main(["evaluate", name, str(file), "--out", str(tmp_path / "o")]) == 2
+    said = capsys.readouterr().err
+    if content is None:
+        assert said == f"mixedlub: {file}: {place}: 'sub': is a folder; name a file in it\n"
+    else:
+        assert said == f"mixedlub: {table}: is not text in UTF-8; save it as comma-separated text in UTF-8\n"
+
+
+def test_a_file_named_like_a_table_of_a_case_is_named_once(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "contact.toml").write_text('schema = "mixedlub-two-disc/1"\n', encoding="utf-8")
+    assert main(["evaluate", "two-disc", "contact.toml"]) == 2
+    assert capsys.readouterr().err.count("contact.toml") == 1

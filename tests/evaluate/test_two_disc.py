@@ -94,7 +94,8 @@ def test_the_case_of_crowned_discs_computes_with_both_radii():
 
 BAD = [
     ({"load_N": 0.0}, {}, "load_N: 0.0: load_N must be above 0"),
-    ({"speed_1_rpm": 0.0, "speed_2_rpm": 0.0}, {}, "speed_1_rpm and speed_2_rpm: 0.0: the discs must roll"),
+    ({"speed_1_rpm": 0.0, "speed_2_rpm": 0.0}, {}, "speed_1_rpm and speed_2_rpm: 0.0: mean surface speed of the discs"),
+    ({"speed_1_rpm": -900.0, "speed_2_rpm": 0.0}, {}, "mean surface speed of the discs (m/s) must be above 0: they"),
     ({}, BOTH, "run 1: 1.08: no reading with the opposite slide-to-roll ratio, -1.08"),
     ({"surface_1": "honed"}, {}, "surface_1: 'honed': the file has no such surface"),
     ({}, {"contact": {"geometry": "line", "width_mm": 6.0}}, 'transverse_radius_mm acts only with geometry = "point"'),
