@@ -21,7 +21,8 @@ NAME = "new"
 EXAMPLE = "mixedlub new study --out out/my_study"
 
 STUDY, FACTORS, CASE, EHL, GEAR, EFFICIENCY = "study", "factors", "case", "ehl", "gear", "efficiency"
-TEMPLATES = (STUDY, FACTORS, CASE, EHL, GEAR, EFFICIENCY)
+FRICTION_LAWS = "friction-laws"
+TEMPLATES = (STUDY, FACTORS, CASE, EHL, GEAR, EFFICIENCY, FRICTION_LAWS)
 KIND = "gear_pair"
 """Default kind of a case."""
 ROWS = 40
@@ -42,7 +43,8 @@ def command(
     what: Annotated[
         str,
         typer.Argument(
-            metavar="WHAT", help="study, factors, case, ehl, gear, efficiency, or a method of `mixedlub evaluate`."
+            metavar="WHAT",
+            help="study, factors, case, ehl, gear, efficiency, friction-laws, or a method of `mixedlub evaluate`.",
         ),
     ],
     kind: Annotated[
@@ -63,7 +65,14 @@ def command(
         raise InputError(f"no such template; {nearest(what, (*TEMPLATES, *EVALUATIONS))}", where="what", value=what)
     if what != CASE and kind is not None:
         raise InputError("only a case has a kind", where="--kind", value=kind)
-    makers = {STUDY: study_files, FACTORS: factor_files, EHL: ehl_files, GEAR: gear_files, EFFICIENCY: efficiency_files}
+    makers = {
+        STUDY: study_files,
+        FACTORS: factor_files,
+        EHL: ehl_files,
+        GEAR: gear_files,
+        EFFICIENCY: efficiency_files,
+        FRICTION_LAWS: friction_law_files,
+    }
     if what in makers:
         files = makers[what]()
     else:
@@ -81,6 +90,10 @@ def command(
         EHL: (folder / "contacts.toml", ("ehl",)),
         GEAR: (folder / "gear.toml", ("gear",)),
         EFFICIENCY: (folder / "efficiency.toml", ("efficiency",)),
+        FRICTION_LAWS: (
+            folder / "study.toml",
+            (f"friction-laws --coefficients {folder / 'coefficients.toml'} --study",),
+        ),
         CASE: (folder, ("check", "diagnose")),
     }.get(what, (folder / f"{what}.toml", (f"evaluate {what}",)))
     echo(f"{' and '.join(files)} in {folder}, with the numbers of an example: put your own in their place, then")
@@ -149,6 +162,25 @@ def efficiency_files() -> dict[str, str]:
     from mixedlub.efficiency import EXAMPLE
 
     return {"efficiency.toml": EXAMPLE.read_text(encoding="utf-8")}
+
+
+def friction_law_files() -> dict[str, str]:
+    """A study on whose gears friction laws are compared, and the coefficients that are the user's, as comments."""
+    from mixedlub.chain.documented import described
+    from mixedlub.friction import catalogue
+
+    lines = [
+        "# Coefficients of friction laws, a table a law; a law that lacks one is left out of the comparison.",
+        '# condensed = "FILE.toml"  # which `mixedlub condense` or `mixedlub evaluate` wrote',
+    ]
+    for law in catalogue().values():
+        if any(c.default is None for c in law.coefficients) and not law.of_oil:
+            lines += ["", f"# [{law.name}]"]
+            lines += [
+                f"# {c.name} = {'NUMBER' if c.default is None else c.default}  # {described(c)}"
+                for c in law.coefficients
+            ]
+    return {**study_files(), "coefficients.toml": "\n".join(lines) + "\n"}
 
 
 def study_text() -> str:

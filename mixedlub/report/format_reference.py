@@ -12,14 +12,19 @@ from typing import Any, Literal, get_args, get_origin
 
 import numpy as np
 
+from mixedlub.chain.documented import described
+from mixedlub.chain.effect import entry
 from mixedlub.efficiency.file import EfficiencyFile
+from mixedlub.ehl.file import EhlFile
 from mixedlub.evaluate import EVALUATIONS
+from mixedlub.friction import catalogue
 from mixedlub.kinds import KINDS, Kind, kind
 from mixedlub.schema.section import FileTable, Key, Section, plain, tables
 from mixedlub.schema.system_file import System
 from mixedlub.schema.table import BOOKKEEPING, RUN, Column, check_column, sd_column
 from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import unit_of
+from mixedlub.study.factor_file import FactorFile
 from mixedlub.study.schema import StudyFile
 from mixedlub.tooth_contact.file import GearAnalysisFile
 from profiles.errors import InputError, nearest
@@ -29,8 +34,15 @@ WIDTH = 80
 LEAST_MEANING_WIDTH = 22
 """Columns that a meaning needs to the right of its key: about three words."""
 STUDY = "study"
-FILES: dict[str, type[Section]] = {STUDY: StudyFile, "gear": GearAnalysisFile, "efficiency": EfficiencyFile}
+FILES: dict[str, type[Section]] = {
+    STUDY: StudyFile,
+    "factors": FactorFile,
+    "gear": GearAnalysisFile,
+    "efficiency": EfficiencyFile,
+    "ehl": EhlFile,
+}
 """Files other than cases, by the command that reads them."""
+FRICTION_LAWS = "friction-laws"
 EVERY_CASE = ("", "uncertainty", "recording")
 """Tables of `system.toml` that do not depend on its kind."""
 _GAP = "  "
@@ -43,15 +55,17 @@ def kinds_text(name: str | None = None) -> str:
     """The format of one kind of case, of all of them, of a study file, or of a file of another command."""
     if name in FILES:
         return "\n".join(_file("a study file" if name == STUDY else f"a file of `mixedlub {name}`", FILES[name]))
+    if name == FRICTION_LAWS:
+        return "\n".join(_friction_laws())
     if name is not None and name in EVALUATIONS:
         return "\n".join(_evaluation(name))
     if name is not None and name not in KINDS:
-        known = (*KINDS, *FILES, *EVALUATIONS)
+        known = (*KINDS, *FILES, FRICTION_LAWS, *EVALUATIONS)
         raise InputError(f"no such kind; {nearest(name, known)}", where="KIND", value=name)
     chosen = [kind(n) for n in (KINDS if name is None else (name,))]
     taken = {*EVERY_CASE, *(section for k in chosen for section in (*k.sections, *k.uses))}
     lines = [] if name else [f"{len(KINDS)} kinds of case. `mixedlub kinds KIND` shows one, with the keys it takes;"]
-    lines += [] if name else ["`mixedlub kinds study`, `gear` or `efficiency` shows the keys of such a file."]
+    lines += [] if name else ["`mixedlub kinds study`, `factors`, `gear`, `efficiency`, `ehl`: keys of a file."]
     for k in chosen:
         lines += ["", *_kind(k)]
     lines += ["", "columns of every kind (conditions.csv has all but the reading)", *aligned(common_rows())]
@@ -76,6 +90,21 @@ def _evaluation(name: str) -> Iterator[str]:
         yield from ("", f"columns of {table}", *aligned(column_rows(columns)))
     yield ""
     yield from _file(f"a file of `mixedlub evaluate {name}`", one.file)
+
+
+def _friction_laws() -> Iterator[str]:
+    """Coefficients that laws have, by the table of a file for `--coefficients`."""
+    about = (
+        "keys of a file for `mixedlub friction-laws --study STUDY.toml --coefficients FILE.toml`: a table a law, whose "
+        "keys a study takes in `friction_coefficients` as well"
+    )
+    yield from _wrapped(about, 0, 2)
+    yield "condensed = FILE.toml, which `mixedlub condense` or `mixedlub evaluate` wrote"
+    for law in catalogue().values():
+        if law.coefficients and not law.of_oil:
+            width = 4 + max(len(c.name) for c in law.coefficients)
+            yield from ("", f"[{law.name}]  {law.title}")
+            yield from (entry(f"  {c.name}", described(c), width) for c in law.coefficients)
 
 
 def about(kind_name: str) -> str:

@@ -107,3 +107,37 @@ def test_what_is_not_there_is_named(tmp_path, capsys, words, said):
     assert main(["new", *words, "--out", str(tmp_path / "out")]) == 2
     assert said in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
+
+
+WITH_PAGES = {
+    "friction-laws": "mesh.csv",
+    "gear": "summary.csv",
+    "efficiency": "map.csv",
+    "ehl": "contacts.csv",
+    "factors": "results.csv",
+    "regression": "terms.csv",
+    "calibration": "coefficients.csv",
+}
+
+
+@pytest.mark.parametrize("name", WITH_PAGES)
+def test_the_line_that_a_template_prints_runs_elsewhere(tmp_path, capsys, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", name, "--out", "mine"]) == 0
+    command = capsys.readouterr().out.splitlines()[-1].split()
+    assert command[0] == "mixedlub"
+    assert main(command[1:]) == 0
+    assert "Traceback" not in capsys.readouterr().err
+    assert list(tmp_path.glob(f"out/**/{WITH_PAGES[name]}"))
+    assert main(["kinds", name]) == 0
+    assert f"mixedlub {'evaluate ' if name in ('regression', 'calibration') else ''}{name}" in capsys.readouterr().out
+
+
+def test_coefficients_of_the_template_are_taken(tmp_path, capsys):
+    assert main(["new", "friction-laws", "--out", str(tmp_path)]) == 0
+    file = tmp_path / "coefficients.toml"
+    lines = [OPTION.sub("", line).replace("NUMBER", "0.05") for line in file.read_text("utf-8").splitlines()]
+    file.write_text("\n".join(line for line in lines if not line.startswith("condensed")) + "\n", encoding="utf-8")
+    given = ["--coefficients", str(file), "--out", str(tmp_path / "out")]
+    assert main(["friction-laws", "--study", str(tmp_path / "study.toml"), *given]) == 0
+    assert capsys.readouterr().err.count("is left out") == 1
