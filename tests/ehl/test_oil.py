@@ -31,6 +31,9 @@ stiffening = -39.5e-3
 stiffening_per_K = 23.54e-5
 
 """
+TWO_SLOPE = ROELANDS.replace('"roelands"', '"two_slope"').rstrip() + (
+    "\nsecond_pressure_viscosity_per_GPa = 8.0\ntransition_pressure_MPa = 600.0\n\n"
+)
 TAIT = """[density]
 law = "tait"
 density_kg_m3 = 850.0
@@ -70,7 +73,7 @@ def written(folder, *changes):
     return path
 
 
-@pytest.mark.parametrize("viscosity", [ROELANDS, ROELANDS.replace('"roelands"', '"barus"'), MODULUS])
+@pytest.mark.parametrize("viscosity", [ROELANDS, ROELANDS.replace('"roelands"', '"barus"'), TWO_SLOPE, MODULUS])
 def test_slopes_of_the_viscosity_are_those_of_small_changes(viscosity, tmp_path):
     check_slopes(read_oil(written(tmp_path, (ROELANDS, viscosity))).log_viscosity)
 
@@ -83,6 +86,26 @@ def check_slopes(law):
     warm, cold = (law(p, t + s)[0] for s in (1e-3, -1e-3))
     assert by_p == pytest.approx((more - less) / (2e-5 * p), rel=1e-6)
     assert by_t == pytest.approx((warm - cold) / 2e-3, rel=1e-5)
+
+
+def test_two_slopes_join_without_a_step(tmp_path):
+    law = read_oil(written(tmp_path, (ROELANDS, TWO_SLOPE))).log_viscosity
+    base = float(law(np.array(0.0), np.array(333.15))[0])
+    rise = [float(law(np.array(p), np.array(333.15))[0]) - base for p in (0.3e9, 1.2e9)]
+    assert rise == pytest.approx([14.81 * 0.3, 14.81 * 0.6 + 8.0 * 0.6], rel=1e-9)
+    slopes = law(np.array([0.42e9 - 1.0, 0.42e9 + 1.0, 0.84e9 - 1.0, 0.84e9 + 1.0]), np.array(333.15))[1]
+    assert slopes == pytest.approx([14.81e-9, 14.81e-9, 8e-9, 8e-9], rel=1e-6)
+
+
+def test_contacts_of_an_oil_of_two_slopes_rub_less(tmp_path):
+    contact = {"radius": 8.69e-3, "line_load": 2.15e5, "speed": 2.24, "sliding_speed": 0.762, "oil_temperature": 333.15}
+    straight, bent = (TWO_SLOPE.replace("= 8.0", f"= {slope}") for slope in ("14.0", "8.0"))
+    found = [solve(read_oil(written(tmp_path, (ROELANDS, law))), **contact) for law in (straight, bent)]
+    assert all(one.status[0] == "converged" for one in found)
+    high, low = (float(one.friction_coefficient[0]) for one in found)
+    assert 0.0 < low < high
+    films = [float(one.flow_film[0]) for one in found]
+    assert films[1] == pytest.approx(films[0], rel=0.02)
 
 
 def test_free_volume_has_its_limits_and_slopes(tmp_path):

@@ -46,12 +46,13 @@ class LawSection(Section):
 
 
 class Viscosity(LawSection):
-    law: Literal["roelands", "barus", "modulus", "doolittle"] = key(
+    law: Literal["roelands", "barus", "two_slope", "modulus", "doolittle"] = key(
         "how the viscosity rises with pressure and falls with temperature",
         "roelands",
         values={
             "roelands": "Roelands in Houpert's form",
             "barus": "exponential; for films only, far too high in the contact above 0.3 GPa",
+            "two_slope": "exponential with a smaller coefficient above a transition, after Allen",
             "modulus": "exp[p/(A + Bp)] of Bode, over ASTM D341",
             "doolittle": "free volume of Doolittle, with the volume of the density law tait",
         },
@@ -59,6 +60,10 @@ class Viscosity(LawSection):
     temperature_C: Number | None = key("temperature of the values below", None, example=60.0, gt=-ZERO_CELSIUS)
     viscosity_mPa_s: Number | None = key("viscosity at ambient pressure", None, example=14.89, gt=0.0)
     pressure_viscosity_per_GPa: Number | None = key("pressure-viscosity coefficient", None, example=14.81, gt=0.0)
+    second_pressure_viscosity_per_GPa: Number | None = key(
+        "pressure-viscosity coefficient far above the transition", None, alternative=True, gt=0.0
+    )
+    transition_pressure_MPa: Number | None = key("pressure of the transition", None, alternative=True, gt=0.0)
     temperature_viscosity_per_K: Number | None = key("relative fall of the viscosity", None, example=0.030, ge=0.0)
     known_temperature_C: Pair | None = key("two temperatures of known viscosity", None, alternative=True)
     kinematic_viscosity_mm2_s: Pair | None = key("kinematic viscosity at these", None, alternative=True)
@@ -78,7 +83,14 @@ class Viscosity(LawSection):
         walther = ("known_temperature_C", "kinematic_viscosity_mm2_s")
         free = ("temperature_C", "viscosity_mPa_s", "free_volume_factor", "occupied_share", "occupied_expansion_per_K")
         moduli = ("modulus_GPa", "modulus_per_kelvin_MPa", "stiffening", "stiffening_per_K")
-        return {"roelands": at_one, "barus": at_one, "modulus": (*walther, *moduli), "doolittle": free}
+        slopes = (*at_one, "second_pressure_viscosity_per_GPa", "transition_pressure_MPa")
+        return {
+            "roelands": at_one,
+            "barus": at_one,
+            "two_slope": slopes,
+            "modulus": (*walther, *moduli),
+            "doolittle": free,
+        }
 
     @model_validator(mode="after")
     def _above_roelands_pole(self) -> Viscosity:
@@ -287,13 +299,21 @@ def _viscosity(section: Viscosity, of: Density) -> Any:
             modulus=(_of(section.modulus_GPa) * GIGA, _of(section.modulus_per_kelvin_MPa) * MEGA),
             stiffening=(_of(section.stiffening), _of(section.stiffening_per_K)),
         )
-    return partial(
-        viscosity.roelands if section.law == "roelands" else viscosity.barus,
-        known_temperature=_of(section.temperature_C) + ZERO_CELSIUS,
-        viscosity=_of(section.viscosity_mPa_s) * MILLI,
-        pressure_viscosity=_of(section.pressure_viscosity_per_GPa) / GIGA,
-        temperature_viscosity=_of(section.temperature_viscosity_per_K),
-    )
+    at_one: dict[str, Any] = {
+        "known_temperature": _of(section.temperature_C) + ZERO_CELSIUS,
+        "viscosity": _of(section.viscosity_mPa_s) * MILLI,
+        "pressure_viscosity": _of(section.pressure_viscosity_per_GPa) / GIGA,
+        "temperature_viscosity": _of(section.temperature_viscosity_per_K),
+    }
+    if section.law == "two_slope":
+        second, transition = section.second_pressure_viscosity_per_GPa, section.transition_pressure_MPa
+        return partial(
+            viscosity.two_slope,
+            second_pressure_viscosity=_of(second) / GIGA,
+            transition=_of(transition) * MEGA,
+            **at_one,
+        )
+    return partial(viscosity.roelands if section.law == "roelands" else viscosity.barus, **at_one)
 
 
 def _shear(section: Shear) -> tuple[Any, Any, Any]:

@@ -1,0 +1,63 @@
+"""The count of items of papers at the top of its page is that of the rows, and what the rows name exists."""
+
+import re
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+import mixedlub
+from mixedlub import friction
+from mixedlub.cli import COMMANDS
+from mixedlub.evaluate import EVALUATIONS
+from mixedlub.schema.gear_file import gear_names
+from mixedlub.schema.oil_file import oil_names
+
+PAGES = Path(__file__).parents[2] / "docs"
+PAGE = (PAGES / "validation" / "papers.md").read_text(encoding="utf-8")
+COMMAND_NAMES = {module.NAME for module in COMMANDS}
+UNIT = re.compile(r"(_(W|N|K|m|s|mm|MPa|GPa))+$")
+"""Units that tables append to a name."""
+STATUS = ("yes", "partly", "no", "not reproducible")
+TOP, *PAPERS = re.split(r"^## ", PAGE, flags=re.MULTILINE)
+
+
+def rows(text):
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if line[:2] == "| "][1:]
+
+
+def counted(items):
+    found = Counter(status.split(":")[0] for *_, status in items)
+    assert set(found) <= set(STATUS)
+    return [str(len(items)), *(str(found[one]) for one in STATUS)]
+
+
+def test_the_numbers_at_the_top_are_those_of_the_rows():
+    made = [[text.splitlines()[0], *counted(rows(text))] for text in PAPERS]
+    every = [row for text in PAPERS for row in rows(text)]
+    assert rows(TOP) == [*made, ["all", *counted(every)]]
+    assert len(every) == 153
+
+
+@pytest.mark.parametrize("text", PAPERS, ids=[text.splitlines()[0] for text in PAPERS])
+def test_each_item_is_there_once_and_says_what_lacks(text):
+    items = rows(text)
+    assert len({name for name, *_ in items}) == len(items)
+    for name, _, how, status in items:
+        assert (status == "yes") == (":" not in status), name
+        assert how != "none" or status.split(":")[0] in ("no", "not reproducible"), name
+
+
+def test_what_the_rows_name_exists():
+    """Commands and methods by their lists, values of keys by theirs, and every other name somewhere in the source."""
+    source = "\n".join(path.read_text("utf-8") for path in Path(mixedlub.__file__).parent.rglob("*.py"))
+    known = {"friction": friction.catalogue(), "oil": oil_names(), "preset": gear_names()}
+    for text in re.findall(r"`([^`]+)`", "\n".join(PAPERS)):
+        command, *rest = text.removeprefix("mixedlub ").split() if text.startswith("mixedlub ") else [""]
+        assert not command or command in COMMAND_NAMES, text
+        assert command != "evaluate" or rest[0] in EVALUATIONS, text
+        key, _, value = text.partition(" = ")
+        if value.strip('"') != value and key in known:
+            assert value.strip('"') in known[key], text
+        for name in [] if command else re.findall(r"\w+", key.removesuffix(".csv")):
+            assert UNIT.sub("", name) in source, text
