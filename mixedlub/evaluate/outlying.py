@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from itertools import pairwise
 
 import numpy as np
+from scipy.interpolate import Akima1DInterpolator
 from scipy.ndimage import maximum_filter1d, minimum_filter1d
 from scipy.stats import theilslopes
 
@@ -15,8 +16,8 @@ LIMIT = 10.0
 """Judgement. Robust standard deviations (1.4826 times the median absolute deviation) from which a sample is named."""
 TO_SIGMA = 1.4826
 """Definition. Standard deviation over median absolute deviation of normal numbers."""
-RESOLUTION = 1e-3
-"""Judgement. Least robust standard deviation over the range of the signal: quiet channels are no finer than that."""
+RESOLUTION = 5e-3
+"""Judgement. Least robust standard deviation over the range of the signal: below 5 % of it nothing is wild."""
 NEIGHBOURS = 3
 """Judgement. Samples of the median about an angle between which a signal may lie."""
 NAMED = 3
@@ -62,7 +63,8 @@ def check_turns(turn: np.ndarray, angle: np.ndarray, signals: Mapping[str, np.nd
     grid = np.arange(angle.min(), angle.max() + step, max(step, 1e-3))
     for channel, signal in signals.items():
         parts = [order[a:b] for a, b in pairwise(bounds)]
-        each = np.stack([np.interp(grid, angle[r], signal[r], left=np.nan, right=np.nan) for r in parts])
+        curves = [Akima1DInterpolator(angle[rows], signal[rows], method="makima") for rows in parts]
+        each = np.stack([curve(grid) for curve in curves])
         several = np.isfinite(each).sum(axis=0) > 1
         centre = np.full(grid.size, np.nan)
         centre[several] = np.nanmedian(each[:, several], axis=0)
