@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from itertools import pairwise
 
 import numpy as np
 from scipy.interpolate import Akima1DInterpolator
@@ -22,6 +21,8 @@ NEIGHBOURS = 3
 """Judgement. Samples of the median about an angle between which a signal may lie."""
 NAMED = 3
 """Samples that a message names; it counts the others."""
+SHORTEST = 4
+"""Samples of a turn that an interpolation needs."""
 LEAST_REPEATS = 3
 """Readings whose median bears one wrong one."""
 
@@ -55,14 +56,13 @@ def check_turns(turn: np.ndarray, angle: np.ndarray, signals: Mapping[str, np.nd
     Angles of one turn alone are left out. Two turns do not tell which is wrong: both are named.
     """
     order = np.lexsort((angle, turn))
-    names, first = np.unique(turn[order], return_index=True)
-    bounds = np.append(first, turn.size)
-    if names.size < 2 or np.diff(bounds).min() < LEAST_REPEATS:
+    _, first = np.unique(turn[order], return_index=True)
+    parts = [rows for rows in np.split(order, first[1:]) if rows.size >= SHORTEST]
+    if len(parts) < 2:
         return
     step = float(np.median(np.diff(angle[order])))
     grid = np.arange(angle.min(), angle.max() + step, max(step, 1e-3))
     for channel, signal in signals.items():
-        parts = [order[a:b] for a, b in pairwise(bounds)]
         curves = [Akima1DInterpolator(angle[rows], signal[rows], method="makima") for rows in parts]
         each = np.stack([curve(grid) for curve in curves])
         several = np.isfinite(each).sum(axis=0) > 1
