@@ -81,10 +81,10 @@ def check_turns(turn: np.ndarray, angle: np.ndarray, signals: Mapping[str, np.nd
         report_outlying(signal - middle, floor, f"{source}, {channel}", place, beyond=beyond)
 
 
-def check_repeats(value: np.ndarray, groups: np.ndarray, run: np.ndarray, channel: str) -> None:
+def check_repeats(value: np.ndarray, sd: np.ndarray, groups: np.ndarray, run: np.ndarray, channel: str) -> None:
     """Report readings that differ from the median of those at the same conditions, over that median.
 
-    ``groups`` (n, k) are the levels of the conditions.
+    ``groups`` (n, k) are the levels of the conditions. Repeats are few: their scale is not below the stated ``sd``.
     """
     deviation = np.full(value.size, np.nan)
     for group in np.unique(groups, axis=0):
@@ -92,7 +92,9 @@ def check_repeats(value: np.ndarray, groups: np.ndarray, run: np.ndarray, channe
         middle = float(np.median(value[rows]))
         if rows.size >= LEAST_REPEATS and middle:
             deviation[rows] = value[rows] / middle - 1.0
-    report_outlying(deviation, RESOLUTION, channel, lambda row: f"run {run[row]} with {value[row]:.4g}")
+    stated = float(np.median(sd / np.maximum(np.abs(value), np.median(np.abs(value)))))
+    floor = max(RESOLUTION, stated)
+    report_outlying(deviation, floor, channel, lambda row: f"run {run[row]} with {value[row]:.4g}")
 
 
 def check_lines(

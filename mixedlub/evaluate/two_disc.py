@@ -210,7 +210,8 @@ def run(file: TwoDiscFile, path: Path) -> Evaluated:
     levels = np.stack([*map(near_values, conditions.values()), *named], axis=1)
     pairs = np.delete(levels, CONDITIONS.index("slide_roll_ratio"), axis=1)
     value, errors = traction(file, table, pairs, ratio)
-    check_repeats(value, levels, table["run"], f"{table.source}, friction_torque_Nm over radius and load")
+    channel = f"{table.source}, friction_torque_Nm over radius and load"
+    check_repeats(value, errors.independent, levels, table["run"], channel)
     found: dict[str, Any] = {"run": table["run"], **{name: table[name] for name in surfaces}, **conditions}
     found |= {"sliding_speed_m_s": ratio * speed, **hertz(file.contact, table["load_N"])}
     found |= interval("friction_coefficient", value, errors.sd(np.eye(value.size)))

@@ -30,7 +30,7 @@ WILD = [
     ("off-line", "recording.csv", "off_line_displacement_um", 20, lambda v: v - 40.0, "(row 20)"),
     ("strain-gauge", "recording.csv", None, 720, lambda v: v + 300.0, "(row 720)"),
     ("calorimetric", "readings.csv", "oil_flow_L_min", 15, lambda v: 2.0 * v, "run 15 with"),
-    ("two-disc", "readings.csv", "friction_torque_Nm", 4, lambda v: 10.0 * v, "run 4 with"),
+    ("two-disc", "readings.csv", "friction_torque_Nm", 4, lambda v: 3.0 * v, "run 4 with"),
 ]
 
 
