@@ -85,9 +85,8 @@ def two_slope(
     .. math:: \ln\eta = \ln\eta_0 - \beta(T - T_0) + \begin{cases}\alpha_1 p & p < 0.7\,p_t\\
               c_0 + c_1 p + c_2 p^2 + c_3 p^3 & \\ \alpha_1 p_t + \alpha_2(p - p_t) & p > 1.4\,p_t\end{cases}
 
-    The cubic has value and slope of the lines at its ends. Mineral oils change slope near 380 MPa. Source: C. W. Allen,
-    D. P. Townsend, E. V. Zaretsky, J. Lubr. Technol. 92 (1970) 155, as H. Xu, PhD thesis, Ohio State University (2005),
-    equation 2.4, has it.
+    The cubic has value and slope of the lines at its ends. Mineral oils change slope near 380 MPa. Source: H. Xu, PhD
+    thesis, Ohio State University (2005), equation 2.4, after Allen.
 
     >>> oil = (313.15, 0.1, 20e-9, 8e-9, 0.38e9, 0.03)
     >>> [round(float(two_slope(p, 313.15, *oil)[0] - np.log(0.1)), 3) for p in (0.2e9, 0.38e9, 1.0e9)]
