@@ -11,7 +11,8 @@ import numpy as np
 from scipy.special import gammaln, ndtri
 
 from mixedlub.diagnosis.explanation import Explanation
-from mixedlub.diagnosis.inference.map_fit import Fit, covariance, log_likelihood
+from mixedlub.diagnosis.inference.likelihood import log_likelihood
+from mixedlub.diagnosis.inference.map_fit import Fit, covariance
 from mixedlub.diagnosis.problem import Problem
 
 PROPOSAL_FREEDOM = 6.0

@@ -13,7 +13,8 @@ from mixedlub.diagnosis.assessment.mismatch_test import mismatch_test
 from mixedlub.diagnosis.assessment.posterior import posterior
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
-from mixedlub.diagnosis.inference.map_fit import linear_fit, map_fit, outlier_chance
+from mixedlub.diagnosis.inference.likelihood import outlier_chance
+from mixedlub.diagnosis.inference.map_fit import linear_fit, map_fit
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search import search as searching
 from mixedlub.effects import catalogue

@@ -12,7 +12,7 @@ from mixedlub.case.folder import read_case
 from mixedlub.case.forward import Forward
 from mixedlub.data_checks.audit import check_readings
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.explanation import Explanation
+from mixedlub.diagnosis.explanation import DISCREPANCY, Explanation
 from mixedlub.importers import write_case
 from mixedlub.recording.conditions import is_constant
 from mixedlub.recording.noise import shrunk_sd
@@ -137,3 +137,17 @@ def test_a_load_under_another_name_is_asked_for_and_not_a_set_up(tmp_path: Path)
     (said,) = [note for note in found if note.code == "repeats_contradictory"]
     assert said.text.endswith("ignored: recordings.csv, load_Nm")
     assert "setup" not in said.text
+
+
+def test_readings_that_follow_no_law_of_their_conditions_are_unknown(tmp_path: Path) -> None:
+    """A slide that reverses within the compliance of its mount: friction follows travel, which is not recorded."""
+    phase = np.linspace(0.0, 2.0 * np.pi, 41)[:-1]
+    speed, friction = 100.0 * np.cos(phase), np.zeros(40)
+    for _ in range(3):
+        for i, step in enumerate(np.gradient(0.4 * np.sin(phase))):
+            friction[i] = np.clip(friction[i - 1] + 6.0 * step, -0.5, 0.5)
+    friction += 0.001 * np.random.default_rng(5).standard_normal(40)
+    drive = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm", "noise": {"absolute": 0.001}}}
+    write_case(tmp_path / "case", drive, {"speed_rpm": speed, "friction_torque_Nm": friction})
+    found = diagnose_case(tmp_path / "case")
+    assert found.posterior.weights[DISCREPANCY] > 0.95

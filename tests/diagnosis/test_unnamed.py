@@ -24,7 +24,8 @@ from mixedlub.diagnosis.discrepancy.modulated import (
     scalings_of,
 )
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
-from mixedlub.diagnosis.inference.map_fit import log_likelihood, map_fit
+from mixedlub.diagnosis.inference.likelihood import log_likelihood
+from mixedlub.diagnosis.inference.map_fit import map_fit
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.search import search
 from mixedlub.kinds import kind

@@ -13,7 +13,8 @@ import numpy as np
 
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.change_points import average_over_change_points, change_point_posterior, drop_columns
-from mixedlub.diagnosis.inference.map_fit import covariance, linear_fit, log_likelihood, map_fit
+from mixedlub.diagnosis.inference.likelihood import log_likelihood
+from mixedlub.diagnosis.inference.map_fit import covariance, linear_fit, map_fit
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.assessment import (

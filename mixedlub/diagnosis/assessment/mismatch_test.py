@@ -9,7 +9,8 @@ import numpy as np
 
 from mixedlub.diagnosis.discrepancy.modulated import READING
 from mixedlub.diagnosis.discrepancy.smooth import DiscrepancyForm
-from mixedlub.diagnosis.inference.map_fit import outlier_chance, whitening
+from mixedlub.diagnosis.inference.likelihood import outlier_chance
+from mixedlub.diagnosis.inference.map_fit import whitening
 from mixedlub.diagnosis.search.noise_selection import NoiseSearch
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.assessment import (

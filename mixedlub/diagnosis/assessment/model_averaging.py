@@ -9,7 +9,7 @@ import numpy as np
 from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.assessment.prediction import NewRows, Prediction, Refined, refine
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
-from mixedlub.diagnosis.inference.map_fit import outlier_chance
+from mixedlub.diagnosis.inference.likelihood import outlier_chance
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.assessment import MOST_AVERAGED, NEGLIGIBLE
 from mixedlub.diagnosis.settings.inference import NINETY

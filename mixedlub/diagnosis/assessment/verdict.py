@@ -9,7 +9,7 @@ from mixedlub.diagnosis.assessment.mismatch_test import Mismatch
 from mixedlub.diagnosis.assessment.posterior import Posterior, posterior
 from mixedlub.diagnosis.explanation import DISCREPANCY, Explanation
 from mixedlub.diagnosis.inference.change_points import change_point_coordinates
-from mixedlub.diagnosis.inference.map_fit import outlier_chance
+from mixedlub.diagnosis.inference.likelihood import outlier_chance
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.assessment import VALIDATED
 from mixedlub.diagnosis.settings.inference import LIKELY

@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mixedlub.diagnosis.explanation import Explanation
-from mixedlub.diagnosis.inference.map_fit import Fit, covariance, log_likelihood, map_fit
+from mixedlub.diagnosis.inference.likelihood import log_likelihood
+from mixedlub.diagnosis.inference.map_fit import Fit, covariance, map_fit
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.settings.inference import (
     CHANGE_POINT_QUANTILES,

@@ -10,6 +10,7 @@ import numpy as np
 
 from mixedlub.case.forward import Run
 from mixedlub.diagnosis.explanation import Explanation
+from mixedlub.diagnosis.inference.likelihood import log_likelihood
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.settings.inference import (
     DAMPING_FALL,
@@ -28,8 +29,6 @@ from mixedlub.diagnosis.settings.inference import (
     LONGEST_STEP,
     MAD_TO_SD,
     MOST_COORDINATE,
-    OUTLIER_SHARE,
-    OUTLIER_WIDTH,
     PRECISION_BEHIND,
     PREFIT_TOLERANCE,
     REWEIGHTINGS,
@@ -41,9 +40,6 @@ from mixedlub.diagnosis.settings.inference import (
 from mixedlub.parallel import shared_out
 
 Item = TypeVar("Item")
-
-_LOG_IN = np.log1p(-OUTLIER_SHARE)
-_LOG_OUT = np.log(OUTLIER_SHARE / OUTLIER_WIDTH * np.sqrt(2.0 / np.pi))
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,35 +79,6 @@ class Fit:
     def anchor(self) -> np.ndarray:
         """Residual of the linearised model at the prior mean."""
         return self.residual + self.common + self.slopes @ self.z
-
-
-def log_likelihood(residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Log density of residuals under normal noise with rare Cauchy errors, and each one's precision weight.
-
-    The Cauchy tail bounds the influence of a single outlier on the fit.
-
-    >>> bool(log_likelihood(np.array([8.0]))[1][0] < 0.02)
-    True
-    """
-    inside, outside = _log_parts(residual)
-    total = np.logaddexp(inside, outside)
-    chance = np.exp(outside - total)
-    return total, 1.0 - chance * (1.0 - 2.0 / (OUTLIER_WIDTH**2 + residual**2))
-
-
-def _log_parts(residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Log density as good reading and as outlier, both with the same constant left out."""
-    return _LOG_IN - 0.5 * residual**2, _LOG_OUT - np.log1p((residual / OUTLIER_WIDTH) ** 2)
-
-
-def outlier_chance(residual: np.ndarray) -> np.ndarray:
-    """Probability that each residual came from the wide errors.
-
-    >>> outlier_chance(np.array([0.0, 6.0])).round(3).tolist()
-    [0.001, 1.0]
-    """
-    inside, outside = _log_parts(residual)
-    return np.exp(outside - np.logaddexp(inside, outside))
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from mixedlub.case.folder import Case
-from mixedlub.diagnosis.inference.map_fit import log_likelihood
+from mixedlub.diagnosis.inference.likelihood import log_likelihood
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.search import (
     BOUND_LEVEL,
