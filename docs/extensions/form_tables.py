@@ -9,9 +9,16 @@ from itertools import groupby
 import scores
 from markdown_tables import table
 
-HEAD = ("form", "law, its constants those of the generator", "range", "planted on", "the catalogue's law can become it")
+HEAD = (
+    "form",
+    "law, its constants those of the generator",
+    "range",
+    "planted on",
+    "the catalogue's law can become it",
+    "right; right or tied; of",
+)
 PHYSICS = ("film", "shear", "contact", "boundary", "load", "loss", "property", "law", "measurement")
-COUNTS = scores.FOLDER / "score_forms.txt"
+BATTERIES = ("score.txt", "score_rigs.txt", "score_forms.txt")
 
 
 def formula(law: object) -> str:
@@ -25,13 +32,13 @@ def formula(law: object) -> str:
 
 
 def tables() -> str:
-    """Every effect with its forms, and how often each was named where a battery of forms is stored."""
+    """Every effect with its forms, and how often each was named in the stored batteries together."""
     from mixedlub.effects import catalogue
     from mixedlub.validation.forms import every_form
 
     stages = {name: effect.stage for name, effect in catalogue().items()}
-    counts = scores.by_form(COUNTS.read_text(encoding="utf-8")) if COUNTS.exists() else {}
-    head = HEAD + (("right; right or tied; of",) if counts else ())
+    stored = [path.read_text(encoding="utf-8") for name in BATTERIES if (path := scores.FOLDER / name).exists()]
+    counts = scores.by_form(stored)
     listed = sorted(every_form(), key=lambda one: (PHYSICS.index(stages[one.effect]), one.effect, one.source))
     parts = []
     for effect, forms in groupby(listed, key=lambda one: one.effect):
@@ -41,7 +48,7 @@ def tables() -> str:
             knobs = "; ".join(f"{k.name} {k.typical[0]:g} to {k.typical[1]:g}" for k in form.knobs)
             range_ = f"{form.holds}; planted with {knobs}" if form.holds else knobs
             within = "yes" if set(one.within) == set(one.on) else ", ".join(one.within) or "no"
-            named = ("; ".join(map(str, counts.get((effect, one.source), ("-",)))),) if counts else ()
-            rows.append((one.source, formula(form.law), range_, ", ".join(one.on), within, *named))
-        parts.append(f"### {effect}\n\n{table(head, rows)}")
+            named = "; ".join(map(str, counts.get((effect, one.source), ("-",))))
+            rows.append((one.source, formula(form.law), range_, ", ".join(one.on), within, named))
+        parts.append(f"### {effect}\n\n{table(HEAD, rows)}")
     return "\n\n".join(parts)

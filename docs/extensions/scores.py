@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -91,15 +92,20 @@ def counts(text: str, title: str = "by kind") -> str:
     return table(head, rows)
 
 
-def by_form(text: str) -> dict[tuple[str, str], tuple[int, int, int]]:
-    """Right, right or tied, and all cases by effect and source, from the block that starts with ``by form``.
+def by_form(texts: Iterable[str]) -> dict[tuple[str, str], tuple[int, ...]]:
+    """Right, right or tied, and all cases by effect and source, summed over the blocks that start with ``by form``.
 
-    >>> by_form("by form  source  right  tied  identifiable  cases\\nchurning  Boness 1989  1  2  2  3\\n")
-    {('churning', 'Boness 1989'): (1, 2, 3)}
+    >>> text = "by form  source  right  tied  identifiable  cases\\nchurning  Boness 1989  1  2  2  3\\n"
+    >>> by_form([text, text])
+    {('churning', 'Boness 1989'): (2, 4, 6)}
     """
-    (block,) = (b for b in text.split("\n\n") if b.startswith("by form"))
-    rows = [_GAP.split(line.strip()) for line in block.splitlines()[1:]]
-    return {(row[0], row[1]): (int(row[2]), int(row[3]), int(row[5])) for row in rows}
+    found: dict[tuple[str, str], tuple[int, ...]] = {}
+    blocks = [block for text in texts for block in text.split("\n\n") if block.startswith("by form")]
+    for block in blocks:
+        for row in (_GAP.split(line.strip()) for line in block.splitlines()[1:]):
+            key, more = (row[0], row[1]), (int(row[2]), int(row[3]), int(row[5]))
+            found[key] = tuple(map(sum, zip(found.get(key, (0, 0, 0)), more, strict=True)))
+    return found
 
 
 def _plain(goal: str) -> str:
