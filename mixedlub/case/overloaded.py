@@ -7,7 +7,7 @@ import numpy as np
 from mixedlub.case.forward import Forward
 from mixedlub.chain.balance import overloaded
 from mixedlub.laws.contact import asperity_load_ratio, mean_hertz_pressure
-from mixedlub.laws.load import LEAST_SHARE
+from mixedlub.laws.load import carries_load
 from mixedlub.schema.findings import Finding, Severity, finding
 
 
@@ -16,10 +16,10 @@ def overloaded_asperities(forward: Forward) -> list[Finding]:
     if forward.case.system.gears is None or "load_share" not in forward.inputs:
         return []
     with np.errstate(all="ignore"):
-        state = forward.model(("asperity_pressure", "hertz_pressure"))(forward.inputs, forward.known_values({}))
+        wanted = ("asperity_pressure", "hertz_pressure", "line_load")
+        state = forward.model(wanted)(forward.inputs, forward.known_values({}))
         ratio = asperity_load_ratio(state["asperity_pressure"], mean_hertz_pressure(state["hertz_pressure"]))
-    loaded = np.asarray(forward.inputs["load_share"]) > LEAST_SHARE
-    largest = np.max(ratio, axis=-1, where=loaded, initial=0.0)
+    largest = np.max(ratio, axis=-1, where=carries_load(state["line_load"]), initial=0.0)
     count = int(overloaded(largest).sum())
     if not count:
         return []

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 LEAST_SHARE = 1e-6
+LIGHT = 0.1
+"""Judgement. Line load over the largest of the flank up to which a contact point decides about no range of a law."""
 
 
 def gear_line_load(load_share: np.ndarray, transmitted_force: np.ndarray, contact_width: np.ndarray) -> np.ndarray:
@@ -20,6 +22,18 @@ def gear_line_load(load_share: np.ndarray, transmitted_force: np.ndarray, contac
     214.9
     """
     return np.maximum(load_share, LEAST_SHARE) * (transmitted_force / contact_width)
+
+
+def carries_load(line_load: np.ndarray) -> np.ndarray:
+    """Whether contact points of a path carry enough for the ranges of laws to matter there.
+
+    Points with less than a tenth of the largest line load, as relief and misalignment leave at ends and edges, carry
+    hardly any of the loss.
+
+    >>> carries_load(np.array([1e-15, 9.0, 11.0, 100.0, 0.0])).tolist()
+    [False, False, True, True, False]
+    """
+    return np.asarray(line_load >= LIGHT * np.max(line_load, axis=-1, keepdims=True))
 
 
 def disc_line_load(load: np.ndarray, contact_width: np.ndarray) -> np.ndarray:

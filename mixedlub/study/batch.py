@@ -22,6 +22,7 @@ from mixedlub.chain.model import Model, Step
 from mixedlub.chain.ranges import beyond
 from mixedlub.cluster import on_cluster
 from mixedlub.laws.contact import asperity_load_ratio, mean_hertz_pressure
+from mixedlub.laws.load import carries_load
 from mixedlub.laws.loss import over_path
 from mixedlub.study.bands import HIGH, LOW, band
 from mixedlub.study.columns import loss_of
@@ -169,21 +170,23 @@ def _part(model: Model, steps: Sequence[Step], want: Sequence[str]) -> Model:
 
 
 def reduced(state: Inputs, plan: Plan) -> Found:
-    """Results of a piece with the mesh axis reduced to one; what is not loaded is in no mean and no check."""
+    """Results of a piece with the mesh axis reduced to one; what is not loaded is in no mean and no check.
+
+    Checks and loads of asperities are of the points that `carries_load` counts.
+    """
     film, area, pressure, weight = (state[n] for n in ("film_thickness", "area_ratio", "hertz_pressure", "mean_weight"))
     loaded = weight > 0
     everywhere = bool(loaded.all())
+    judged = carries_load(state["line_load"])
     mean_pressure = mean_hertz_pressure(pressure)
     # The largest ratio of pressures is sought where that of area to pressure is: that costs no integral a point.
-    hardest = (area * (loaded / mean_pressure)).argmax(axis=-1, keepdims=True)
+    hardest = (area * (judged / mean_pressure)).argmax(axis=-1, keepdims=True)
 
     def there(value: np.ndarray) -> np.ndarray:
         return value if np.ndim(value) == 0 or value.shape[-1] == 1 else np.take_along_axis(value, hardest, axis=-1)
 
     def largest(value: np.ndarray) -> np.ndarray:
-        if everywhere:
-            return value.max(axis=-1, keepdims=True)
-        return np.max(value, axis=-1, keepdims=True, where=loaded, initial=0.0)
+        return value.max(axis=-1, keepdims=True) if everywhere else _largest(value, loaded)
 
     carried = plan.asperities(*(there(state[name]) for name in plan.asperities_read))
     touching = there(area)
@@ -203,18 +206,18 @@ def reduced(state: Inputs, plan: Plan) -> Found:
         "asperity_load_ratio": asperity_load_ratio(carried, there(mean_pressure)),
         "asperity_real_pressure": np.divide(carried, touching, out=np.zeros_like(carried), where=touching > 0.0),
         "largest_area_ratio": touching,
-        FILM_OVER_WIDTH: largest(_over_width(state)),
+        FILM_OVER_WIDTH: _largest(_over_width(state), judged),
         "plain_mean_friction": over_path(state["friction"], weight),
         "least_film": np.min(film, axis=-1, keepdims=True, where=everywhere or loaded, initial=np.inf),
         "flash_temperature": largest(state["flash_temperature"]),
         **_rated(state, loaded, plan),
         **{name: state[name] for name in (*(SPUR if plan.spur else ()), *map(loss_of, plan.losing))},
-        **(_shared(state, loaded, mean_pressure) if plan.balanced else {}),
+        **(_shared(state, judged, mean_pressure) if plan.balanced else {}),
     }
     for name, valid in plan.ranges.items():
-        found[BEYOND + name] = np.any(loaded & beyond(state, valid), axis=-1, keepdims=True)
+        found[BEYOND + name] = np.any(judged & beyond(state, valid), axis=-1, keepdims=True)
     if plan.friction is not None:
-        found[BEYOND + plan.friction.name] = np.any(loaded & plan.friction.outside(state), axis=-1, keepdims=True)
+        found[BEYOND + plan.friction.name] = np.any(judged & plan.friction.outside(state), axis=-1, keepdims=True)
     return found
 
 
@@ -235,19 +238,19 @@ def _over_width(state: Inputs) -> np.ndarray:
     return np.asarray(state["film_thickness"] / width)
 
 
-def _shared(state: Inputs, loaded: np.ndarray, mean_pressure: np.ndarray) -> Found:
+def _largest(value: np.ndarray, where: np.ndarray) -> np.ndarray:
+    return np.max(value, axis=-1, keepdims=True, where=where, initial=0.0)
+
+
+def _shared(state: Inputs, judged: np.ndarray, mean_pressure: np.ndarray) -> Found:
     """Outputs and checks of a piece in which film and asperities share the load; its largest share is sought."""
     share, of_film, weight = state["asperity_pressure"] / mean_pressure, state["film_load_share"], state["mean_weight"]
-
-    def largest(value: np.ndarray) -> np.ndarray:
-        return np.max(value, axis=-1, keepdims=True, where=loaded, initial=0.0)
-
     return {
-        "asperity_load_ratio": largest(share),
+        "asperity_load_ratio": _largest(share, judged),
         "mean_asperity_load_share": over_path(share, weight),
         "film_over_unbalanced": over_path(state["film_thickness"] / state["full_load_film"], weight),
-        "balance_error": largest(np.abs(share + of_film - 1.0)),
-        "film_below_its_share": np.any(loaded & (of_film < state["least_film_share"]), axis=-1, keepdims=True),
+        "balance_error": _largest(np.abs(share + of_film - 1.0), judged),
+        "film_below_its_share": np.any(judged & (of_film < state["least_film_share"]), axis=-1, keepdims=True),
     }
 
 

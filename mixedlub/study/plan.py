@@ -53,6 +53,7 @@ WANTED = (
     "area_ratio",
     "film_thickness",
     "composite_roughness",
+    "line_load",
     "hertz_pressure",
     "friction",
     "flash_temperature",

@@ -165,3 +165,23 @@ def test_a_loss_factor_beyond_its_contact_ratio_is_left_out_and_said(write_study
     assert study.pair.contact_ratio > 2.0
     assert "loss_factor_left_out" in codes(study.notes)
     assert "loss_factor" not in run_study(study).values
+
+
+RELIEVED = {"model": "ldp", "tip_relief_um": [30.0, 30.0], "relief_length_mm": [2.0, 2.0]}
+
+
+@pytest.mark.parametrize("balance", ["none", "johnson_greenwood_poon"])
+def test_ends_of_the_path_that_relief_unloads_raise_no_flag(balance, write_study):
+    """They carry nothing, or a few hundredths of the load, where no film is flattened and asperities carry more."""
+    options = {"balance": balance, "mixture": "tallian" if balance == "none" else "load_weighted"}
+    changes = {"surfaces": THICK["surfaces"], "options": options, "conditions__oil_temperature_C": [60]}
+    relieved = run_study(read_study(write_study(gears__load_sharing=RELIEVED, **changes)))
+    assert not relieved.flags, relieved.flags
+
+
+def test_a_law_out_of_range_where_the_load_is_stays_flagged(write_study):
+    """At 2 N m the whole path is below the least load of the film law."""
+    light = read_study(write_study(gears__load_sharing=RELIEVED, conditions__torque_Nm=[2, 150]))
+    flagged = run_study(light).flags["law_extrapolated:dowson_toyoda"]
+    assert flagged[:, :, 0].all()
+    assert not flagged[:, :, 1].any()
