@@ -20,6 +20,10 @@ WIDTH, INDENT = 80, 16
 STAGES = ("film", "shear", "contact", "boundary", "load", "loss", "property", "law", "measurement")
 
 
+Ranges = Mapping[str, tuple[float, float]]
+"""Least and largest value of quantities, in SI."""
+
+
 @dataclass(frozen=True)
 class Parameter:
     """A number an effect depends on; ``null`` is the value that switches it off, if there is one.
@@ -85,7 +89,7 @@ class Effect:
     source: str
     fingerprint: Mapping[str, str]
     separated_by: str
-    valid: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    valid: Ranges = field(default_factory=dict)
     applied_after: tuple[str, ...] = ()
     kinds: tuple[str, ...] = ()
     prior_odds: float = 1.0
@@ -95,6 +99,11 @@ class Effect:
     needs_variation_in: str = ""
     replaces: str = ""
     fixed: Mapping[str, float] = field(default_factory=dict)
+    also_valid: Callable[[Mapping[str, float]], Ranges] | None = None
+
+    def valid_at(self, values: Mapping[str, float]) -> Ranges:
+        """The range at these values of the parameters, one of which may choose a law with a narrower range."""
+        return {**self.valid, **(self.also_valid(values) if self.also_valid else {})}
 
     def fixing(self, values: Mapping[str, float]) -> Effect:
         """The same effect with some of its parameters fixed at these values, no longer among its parameters."""
@@ -198,7 +207,8 @@ def effect(
     source: str,
     fingerprint: Mapping[str, str],
     separated_by: str,
-    valid: Mapping[str, tuple[float, float]] | None = None,
+    valid: Ranges | None = None,
+    also_valid: Callable[[Mapping[str, float]], Ranges] | None = None,
     applied_after: tuple[str, ...] = (),
     kinds: tuple[str, ...] = (),
     prior_odds: float = 1.0,
@@ -221,6 +231,7 @@ def effect(
     ``descriptive`` effect follows readings without naming a cause. An ``exact_form`` is the effect's definition, so no
     error of form is considered. ``needs_variation_in`` is a quantity at whose single value the effect would only
     rescale the base model; it is not offered there. A law that adds no physics ``replaces`` a step of the base model.
+    ``valid`` is the range of all its laws, ``also_valid`` gives that of some by the values of the parameters.
     """
     targets = (acts_on,) if isinstance(acts_on, str) else acts_on
 
@@ -267,6 +278,7 @@ def effect(
             exact_form=exact_form,
             needs_variation_in=needs_variation_in,
             replaces=replaces,
+            also_valid=also_valid,
         )
         return law
 

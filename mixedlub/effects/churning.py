@@ -1,5 +1,7 @@
 """Churning."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
@@ -8,6 +10,18 @@ from mixedlub.laws import drag
 
 TURBULENT = -1.0 / 3.0, 8.0 / 3.0
 """Exponent of viscosity and excess exponent of speed in Boness' torque, for Reynolds numbers 2000 to 1e5."""
+CASES = {
+    "Changenet and Velex": {"viscous": 0.21, "surplus": 0.38, "second_law": 1.0},
+    "Boness, laminar": {"viscous": 1.0, "surplus": 0.0, "second_law": 0.0},
+    "Boness, turbulent": {"viscous": TURBULENT[0], "second_law": 0.0},
+    "ISO/TR 14179-1": {"viscous": 1.0, "surplus": 1.0, "second_law": 0.0},
+}
+
+
+def _slow_bath(values: Mapping[str, float]) -> Mapping[str, tuple[float, float]]:
+    """The range of the first law of Changenet and Velex where the second one does not take over from it in full."""
+    cited = any(law["second_law"] == 0.0 and law.items() <= values.items() for law in CASES.values())
+    return {} if cited or values["second_law"] >= 1.0 else {"bath_acceleration": (0.0, drag.SLOW_BATH)}
 
 
 @effect(
@@ -55,12 +69,8 @@ TURBULENT = -1.0 / 3.0, 8.0 / 3.0
     "law); other powers reach from there to the viscous drag of R. J. Boness, Proc. Int. Symp. Gearing 1989 (n^2 nu), "
     "ISO/TR 14179-1 (n^3 nu), and to Boness' turbulent branch (n^(10/3) nu^(-1/3))",
     fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "roughness": "-"},
-    special_cases={
-        "Changenet and Velex": {"viscous": 0.21, "surplus": 0.38, "second_law": 1.0},
-        "Boness, laminar": {"viscous": 1.0, "surplus": 0.0, "second_law": 0.0},
-        "Boness, turbulent": {"viscous": TURBULENT[0], "second_law": 0.0},
-        "ISO/TR 14179-1": {"viscous": 1.0, "surplus": 1.0, "second_law": 0.0},
-    },
+    special_cases=CASES,
+    also_valid=_slow_bath,
     separated_by="the oil level, or a dry sump: it changes with depth, rolling resistance does not; out of mesh it "
     "stays",
 )

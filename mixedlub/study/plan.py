@@ -127,7 +127,8 @@ class Plan:
         """The range of every active effect and chosen law that has one, by its name: in SI, by quantity."""
         unread = ignored(self.options, self._model(()))
         chosen = [slot.choices[getattr(self.options, slot.option)] for slot in SLOTS if slot.option not in unread]
-        known = {e.id: e.valid for e in self.effects} | {c.law.__name__: c.valid for c in chosen}
+        known = {e.id: e.valid_at(self.parameters[e.id]) for e in self.effects}
+        known |= {c.law.__name__: c.valid for c in chosen}
         if self.options.film_roughness != "none":
             known["rough_film"] = {"film_over_roughness": (THINNEST, np.inf)}
         return {name: valid for name, valid in known.items() if valid}

@@ -185,3 +185,24 @@ def test_a_law_out_of_range_where_the_load_is_stays_flagged(write_study):
     flagged = run_study(light).flags["law_extrapolated:dowson_toyoda"]
     assert flagged[:, :, 0].all()
     assert not flagged[:, :, 1].any()
+
+
+@pytest.mark.parametrize(
+    ("churning", "flagged"),
+    [
+        ({"law": "Changenet and Velex"}, False),
+        ({"viscous": 0.21, "surplus": 0.38, "second_law": 0.0}, True),
+        ({"viscous": 0.21, "surplus": 0.38, "second_law": -0.5}, True),
+        ({"viscous": 0.21, "surplus": 0.38, "second_law": 0.5}, True),
+        ({"law": "ISO/TR 14179-1"}, False),
+        ({"law": "Boness, turbulent"}, False),
+    ],
+)
+def test_the_first_law_of_churning_is_flagged_at_high_speed(churning, flagged, write_study):
+    """Oil on the rim of the wheel has 645 m/s^2 at 3000 rpm of the pinion; the limit that its authors give is 750."""
+    speeds = {"conditions__speed_rpm": [500, 3000, 3500]}
+    results = run_study(read_study(write_study(effects={"churning": churning}, **speeds)))
+    where = results.flags.get("law_extrapolated:churning", np.zeros((1, 1, 1, 3), bool))
+    assert where.any(axis=(0, 1, 2)).tolist() == [False, False, flagged]
+    told = [one.text for one in results.findings if one.place == "effects.churning"]
+    assert any("750 m/s^2" in text for text in told) == flagged
