@@ -249,7 +249,7 @@ class StudyFile(RigFile):
     @model_validator(mode="after")
     def _scuffs_above_the_oil(self) -> StudyFile:
         """Refuse an oil that scuffs at the temperature at which it enters the gears or the contact."""
-        hottest = max(self.conditions.oil_temperature_C) + max(self.options.bulk_temperature_rise_K, 0.0)
+        hottest = max(self.conditions.oil_temperature_C) + self.options.bulk_temperature_rise_K
         for name in ("scuffing_temperature_C", "integral_scuffing_temperature_C"):
             limit = None if self.safety is None else getattr(self.safety, name)
             if limit is not None and limit <= hottest:

@@ -93,7 +93,7 @@ def test_every_key_of_a_study_is_told(capsys):
         for key in table.keys:
             assert re.search(rf"\n  {key.name} ", said), f"{table.name}.{key.name}"
             assert all(re.search(rf'\n      "{value}" +\w', said) for value in key.values)
-    assert re.search(r"bulk_temperature_rise_K +K +0 +-100 to 200\n", said)
+    assert re.search(r"bulk_temperature_rise_K +K +0 +0 to 200\n", said)
     assert re.search(r"torque_Nm +N m +required +list of 1e-09 to 1e\+09\n", said)
 
 

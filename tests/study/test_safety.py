@@ -47,6 +47,12 @@ def test_a_stated_rise_of_the_bulk_counts_from_the_oil(write_study):
     assert table["scuffing_safety_flash"].to_numpy() == pytest.approx((250.0 - oil) / (contact - oil), rel=1e-9)
 
 
+def test_teeth_colder_than_their_oil_are_refused(write_study):
+    """Losses warm them; below the oil the safety against scuffing would have no sign."""
+    with pytest.raises(InputError, match=r"options.bulk_temperature_rise_K: -5.0: must be from 0 to 200 K"):
+        read_study(write_study(safety=LIMITS, options={"bulk_temperature_rise_K": -5.0}))
+
+
 def test_oil_warmed_to_its_limit_is_refused(write_study):
     file = write_study(safety={"scuffing_temperature_C": 110.0}, options={"bulk_temperature_rise_K": 30.0})
     with pytest.raises(InputError, match="oil of 120"):
