@@ -296,9 +296,10 @@ def test_it_is_saved_as_a_picture(chart):
         assert saving.value.path().read_bytes().startswith(start)
 
 
-def test_its_rows_are_saved_as_a_table(chart, rows):
+def test_all_its_rows_are_saved_as_a_table(chart, rows):
+    choose(chart, "one_surface", "fine")
     with chart.expect_download() as saving:
-        chart.get_by_text("Save the rows of the chart as CSV").click()
+        chart.get_by_text("Save all these conditions as CSV").click()
     assert saving.value.suggested_filename == "trial_chart.csv"
     with saving.value.path().open(encoding="utf-8") as file:
         saved = list(csv.DictReader(file))
