@@ -45,8 +45,8 @@ PAIRING, ALL = "pairing", "all"
 HEIGHT = 380
 MOST_NAMED = 80
 """Most names in the legend; the lists of surfaces choose among more."""
-WIDEST_NAME, LETTER, BESIDE_NAME = 240, 6.3, 28
-"""Width of the longest name in the legend, of a letter in it, and of the mark beside it (pixels)."""
+WIDEST_NAME, LETTER, BESIDE_NAME, COLUMN_GAP = 240, 6.8, 20, 14
+"""Width of the longest name in the legend, of a letter in it, of the mark beside it, and between columns (pixels)."""
 FAINT = 0.08
 """Opacity of pairings that are not chosen."""
 GREY, INK = "#5b6770", "#1d2329"
@@ -85,7 +85,8 @@ def specification(results: Results, rows: ChartRows) -> dict[str, Any]:
     chart = chart.properties(name="study", width="container", height=HEIGHT, title=title, autosize=fitted)
     chart = chart.properties(description=f"Results of {results.study.file.title}, chosen from the lists above")
     chart = chart.configure_view(stroke=None).configure(font=FONTS.replace("'", ""))
-    return chart.configure_axis(gridColor="#e5e5e5", format="~r", labelFlush=False).to_dict()
+    chart = chart.configure_legend(labelFontSize=11, rowPadding=5, columnPadding=COLUMN_GAP)
+    return chart.configure_axis(gridColor="#e5e5e5", format="~r", labelFlush=False, labelFontSize=11).to_dict()
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,15 +198,15 @@ class _Chart:
                 title=None,
                 orient="bottom",
                 offset=32,
-                columns=alt.ExprRef(f"max(1, floor(width / {self._name_width() + BESIDE_NAME}))"),
+                columns=alt.ExprRef(f"max(1, floor(width / {self._name_width() + BESIDE_NAME + COLUMN_GAP}))"),
                 symbolLimit=MOST_NAMED,
                 symbolType="circle",
                 labelLimit=WIDEST_NAME,
             ),
         )
         drawn = alt.Chart().encode(
-            x=alt.X("x:Q", title=None, scale=alt.Scale(zero=False)),
-            y=alt.Y("y:Q", title=None),
+            x=alt.X("x:Q", scale=alt.Scale(zero=False), axis=_axis("width", 130)),
+            y=alt.Y("y:Q", axis=_axis("height", 50)),
             color=colour,
             detail="series:N",
             opacity=alt.when(picked).then(alt.value(1.0)).otherwise(alt.value(FAINT)),
@@ -259,6 +260,13 @@ class _Chart:
                 (level,) = shown([self.rows.table[name].iloc[0]])
                 parts.append(f"'{in_words(name)} {level} {unit}, '")
         return f"replace({' + '.join(parts)}, /, $/, '')"
+
+
+def _axis(length: str, apart: int) -> alt.Axis:
+    """An axis with ticks about so many pixels apart, at any size of the window."""
+    import altair as alt
+
+    return alt.Axis(title=None, tickCount=alt.ExprRef(f"max(2, {length} / {apart})"))
 
 
 def _held(condition: str) -> str:

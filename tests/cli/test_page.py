@@ -1,6 +1,7 @@
 """The page of a study: self-contained, and its chart does in a browser what its lists, legend and links offer."""
 
 import csv
+import itertools
 import re
 import shutil
 import subprocess
@@ -307,6 +308,22 @@ def test_all_its_rows_are_saved_as_a_table(chart, rows):
     assert saved[0].keys() == rows[0].keys()
     losses = [sorted(float(row["power_loss_W"]) for row in table) for table in (saved, rows)]
     assert losses[0] == pytest.approx(losses[1], rel=5e-5)
+
+
+def test_ticks_and_names_stand_apart(chart):
+    """Ticks of the abscissa by at least 50 pixels, rows of the legend by at least 4; 500 to 3000 rpm had one each 100."""
+    ticks = chart.locator("#chart g.role-axis-label").first.locator("text").evaluate_all(
+        "all => all.map(one => one.getBoundingClientRect().x)"
+    )
+    assert 4 <= len(ticks) <= 12
+    assert np.diff(ticks).min() > 50
+    choose(chart, "colour_by", "pairing")
+    names = chart.locator("#chart g.role-legend-label text").evaluate_all(
+        "all => all.map(one => { const b = one.getBoundingClientRect(); return [b.left, b.right, b.top, b.bottom]; })"
+    )
+    for one, other in itertools.combinations(names, 2):
+        beside = one[1] + 14 < other[0] or other[1] + 14 < one[0]
+        assert beside or one[3] + 4 <= other[2] or other[3] + 4 <= one[2]
 
 
 def test_it_fits_a_narrow_window(chart):
