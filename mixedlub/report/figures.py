@@ -13,6 +13,7 @@ from mixedlub.report.plots import (
     MOST_LEVELS,
     MOST_PAIRINGS,
     MOST_TORQUES,
+    OUTSIDE,
     film_and_friction,
     has_bands,
     has_own_scales,
@@ -101,7 +102,7 @@ def _at_temperature(results: Results, theta: int, several: bool) -> Iterator[Dra
         ("area_ratio", "boundary area ratio", True),
     ):
         name = quantity.removeprefix("composite_")
-        text = f"Power loss against {words}{f', {fitted}' if fit else ''}{at}. {symbols}"
+        text = f"Power loss against {words}{f', {fitted}' if fit else ''}{at}.{symbols}"
         text += "" if fit else " The dashed line marks a film as thick as the composite roughness."
         yield Drawn(f"loss_over_{name}{suffix}", text + drawn, loss_over(results, quantity, theta, fitted=fit))
     whose_film = "the same for all pairings" if one_film(results) else "of the smoothest pairing"
@@ -116,7 +117,7 @@ def _at_temperature(results: Results, theta: int, several: bool) -> Iterator[Dra
 
 
 def _hollow(outside: np.ndarray) -> str:
-    return " Hollow marks: outside the model's range, as the table says." if outside.any() else ""
+    return f" Hollow marks: {OUTSIDE}, as the table says." if outside.any() else ""
 
 
 def shaded(results: Results) -> str:
@@ -144,12 +145,11 @@ def _log_words(ratios: np.ndarray) -> str:
 
 
 def _symbols(results: Results, theta: int) -> str:
-    """Meaning of the symbols, number of pairings shown, and a note on the scales."""
+    """Meaning of hollow marks, number of pairings shown, and a note on the scales."""
     count = len(results.study.pairings)
     return "".join(
         (
-            "Filled: both surfaces equal; open: different.",
-            " Triangles: outside the model's range, as the table says." if results.outside[:, theta].any() else "",
+            _hollow(results.outside[:, theta]),
             f" {MOST_PAIRINGS} of {count} pairings are shown." if count > MOST_PAIRINGS else "",
             " Each torque has its own scale of the loss." if has_own_scales(results, theta) else "",
         )

@@ -8,7 +8,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mixedlub.report.figures import Drawn, groups, shaded
-from mixedlub.report.plots import AXIS, MOST_LEVELS, MOST_TORQUES, has_bands, paired_title, shown, spread
+from mixedlub.report.plots import (
+    AXIS,
+    MOST_LEVELS,
+    MOST_TORQUES,
+    OUTSIDE,
+    has_bands,
+    mark,
+    paired_title,
+    points,
+    shown,
+    spread,
+    with_hollow,
+)
 from mixedlub.report.style import shades, styled
 from mixedlub.study.bands import HIGH, LOW
 from mixedlub.study.fits import can_be_fitted, straight_line
@@ -32,11 +44,11 @@ SIZES: dict[Any, Any] = {
     "axes.labelpad": 2.0,
 }
 """Settings of text and lines at that width; journals ask for 6 points or more."""
-SHAPES = "ovs"
+SHAPES = "^sD"
 """Marks of the torques, where panels do not tell them apart."""
 LOSS = "normalised power loss (-)"
 RATIO = "boundary area ratio (-)"
-OUTSIDE = " Hollow: outside the model's range."
+HOLLOW = f" Hollow: {OUTSIDE}."
 SIDE_BY_SIDE, LONGEST_LINE = 13, 16
 """Letters of two names, and of a line, that fit above a panel of a third of the width."""
 
@@ -54,13 +66,13 @@ def paper_figures(results: Results) -> Iterator[Drawn]:
             ("area_ratio", RATIO, RATIO[:-4]),
         ):
             for key, which, chosen in groups(results):
-                caption = f"{words[:1].upper()}{words[1:]} against speed: {which}, {oil}.{OUTSIDE}{shaded(results)}"
+                caption = f"{words[:1].upper()}{words[1:]} against speed: {which}, {oil}.{HOLLOW}{shaded(results)}"
                 figure = _small(results, quantity, chosen, theta, label)
                 yield Drawn(f"paper_{number:02}_{quantity}_{key}", caption, figure)
                 number += 1
         for number, quantity in ((8, "composite_roughness"), (9, "film_parameter"), (10, "area_ratio")):
             what = AXIS[quantity][0].partition(" (")[0]
-            caption = f"Normalised power loss against {what} for all pairings, {oil}.{OUTSIDE}"
+            caption = f"Normalised power loss against {what} for all pairings, {oil}.{HOLLOW}"
             draw = _by_torque if quantity == "composite_roughness" else _together
             yield Drawn(f"paper_{number:02}_loss_over_{quantity}", caption, draw(results, quantity, theta))
 
@@ -87,7 +99,7 @@ def _small(results: Results, quantity: str, chosen: Sequence[int] | np.ndarray, 
             if has_bands(results):
                 low, high = (values[pairing, theta, t, order] for values in _ends(results, quantity))
                 panel.fill_between(thousands, low, high, color=colour, alpha=0.2, linewidth=0.0)
-            _marks(panel, thousands, y, ~results.outside[pairing, theta, t, order], "o", colour)
+            points(panel, thousands, y, results.outside[pairing, theta, t, order], colour)
         panel.set_title(title, loc="left")
     for empty in axes[len(chosen) :]:
         empty.set_visible(False)
@@ -100,8 +112,9 @@ def _small(results: Results, quantity: str, chosen: Sequence[int] | np.ndarray, 
     first.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
     figure.supxlabel(f"{results.study.file.options.conditions_of} speed (1000 rpm)", fontsize=TEXT)
     figure.supylabel(label, fontsize=TEXT)
-    handles = [_handle("o", colour) for colour in shades(len(torques))]
-    _legend(figure, handles, _torques(results, torques), 3)
+    handles = [mark("o", colour) for colour in shades(len(torques))]
+    outside = results.outside[chosen, theta][:, torques]
+    _legend(figure, *with_hollow(handles, _torques(results, torques), outside), 3)
     return figure
 
 
@@ -127,10 +140,10 @@ def _by_torque(results: Results, quantity: str, theta: int) -> Figure:
             if can_be_fitted(results):
                 line, ends = straight_line(x, y), np.array([x.min(), x.max()])
                 panel.plot(ends, line.intercept + line.slope * ends, color=colour, linewidth=0.7)
-            _marks(panel, x, y, ~results.outside[:, theta, t, n], "o", colour)
+            points(panel, x, y, results.outside[:, theta, t, n], colour)
         panel.set_title(f"({letter}) {text}", loc="left")
     _finish(figure, axes, quantity)
-    _legend(figure, *_speeds(results, speeds), 3)
+    _legend(figure, *with_hollow(*_speeds(results, speeds), results.outside[:, theta][:, torques][..., speeds]), 3)
     return figure
 
 
@@ -145,27 +158,24 @@ def _together(results: Results, quantity: str, theta: int) -> Figure:
     for shape, t in zip(SHAPES, torques):
         for colour, n in zip(shades(len(speeds)), speeds):
             x, y = _points(results, quantity, theta, int(t), int(n))
-            _marks(panel, x, y, ~results.outside[:, theta, t, n], shape, colour)
+            points(panel, x, y, results.outside[:, theta, t, n], colour, shape)
     if quantity == "film_parameter":
         panel.axvline(1.0, color="0.35", linewidth=0.8, linestyle=(0, (4, 3)), zorder=0)
     _finish(figure, [panel], quantity)
     handles, names = _speeds(results, speeds)
-    rows = max(-(-len(names) // 2), len(torques))
+    outside = results.outside[:, theta][:, torques][..., speeds]
+    shapes, told = with_hollow(
+        [mark(shape, "0.35") for shape, _ in zip(SHAPES, torques)], _torques(results, torques), outside
+    )
+    rows = max(-(-len(names) // 2), len(told))
     empty = 2 * rows - len(names)  # torques take the last column
-    shapes = [*[_handle("", "none")] * empty, *(_handle(shape, "0.35") for shape, _ in zip(SHAPES, torques))]
-    _legend(figure, [*handles, *shapes], [*names, *[""] * empty, *_torques(results, torques)], 3)
+    _legend(figure, [*handles, *[mark("", "none")] * empty, *shapes], [*names, *[""] * empty, *told], 3)
     return figure
 
 
 def _points(results: Results, quantity: str, theta: int, torque: int, speed: int) -> tuple[np.ndarray, np.ndarray]:
     x = results[quantity][:, theta, torque, speed] * AXIS[quantity][1]
     return x, results["normalised_loss"][:, theta, torque, speed]
-
-
-def _marks(panel: Axes, x: np.ndarray, y: np.ndarray, within: np.ndarray, shape: str, colour: Any) -> None:
-    """Marks of points, hollow where a condition is outside the model's range."""
-    for face, at in ((colour, within), ("white", ~within)):
-        panel.plot(x[at], y[at], shape, color=colour, markerfacecolor=face, markeredgewidth=0.6)
 
 
 def _finish(figure: Figure, axes: Sequence[Axes] | np.ndarray, quantity: str) -> None:
@@ -181,13 +191,7 @@ def _torques(results: Results, places: Sequence[int] | np.ndarray) -> list[str]:
 
 def _speeds(results: Results, places: Sequence[int] | np.ndarray) -> tuple[list[Any], list[str]]:
     names = [f"{text} rpm" for text in shown([results.study.file.conditions.speed_rpm[n] for n in places])]
-    return [_handle("o", colour) for colour in shades(len(places))], names
-
-
-def _handle(shape: str, colour: Any) -> Any:
-    from matplotlib.lines import Line2D
-
-    return Line2D([], [], marker=shape, color=colour, linestyle="")
+    return [mark("o", colour) for colour in shades(len(places))], names
 
 
 def _legend(figure: Figure, handles: Sequence[Any], names: Sequence[str], columns: int) -> None:

@@ -39,6 +39,8 @@ AXIS = {
     "power_loss": ("power loss (W)", 1.0),
 }
 """Label of each quantity, and the factor from SI to its unit."""
+OUTSIDE = "outside the model's range"
+"""Meaning of a hollow mark in every figure of a study; shapes tell torques where one panel has several, and no more."""
 
 
 def some(count: int, most: int) -> np.ndarray:
@@ -82,6 +84,28 @@ def paired_title(results: Results, pairing: int, more: str = "", fit: int = SIDE
 
 def _whose(results: Results) -> str:
     return results.study.file.options.conditions_of
+
+
+def points(panel: Axes, x: np.ndarray, y: np.ndarray, outside: np.ndarray, colour: Any, shape: str = "o") -> None:
+    """Marks of points, hollow where a condition is outside the model's range."""
+    for face, at in ((colour, ~outside), ("white", outside)):
+        panel.plot(x[at], y[at], shape, color=colour, markerfacecolor=face, markeredgewidth=0.6)
+
+
+def mark(shape: str, colour: Any, face: Any = None) -> Any:
+    """A mark for a legend."""
+    from matplotlib.lines import Line2D
+
+    return Line2D([], [], marker=shape, color=colour, linestyle="", markerfacecolor=face or colour)
+
+
+def with_hollow(
+    handles: Sequence[Any], names: Sequence[str], outside: np.ndarray
+) -> tuple[Sequence[Any], Sequence[str]]:
+    """Entries of a legend, and that of hollow marks where any is drawn."""
+    if not outside.any():
+        return handles, names
+    return [*handles, mark("o", "0.35", "white")], [*names, OUTSIDE]
 
 
 def _curve(panel: Axes, x: np.ndarray, y: np.ndarray, outside: np.ndarray, colour: Any, label: str) -> None:
@@ -178,8 +202,14 @@ def _over(
         axes[0].set_ylim(bottom=max(LEAST_RATIO, 0.7 * drawn[drawn > 0].min()), top=1.5 * drawn.max())
     else:
         axes[0].set_ylim(bottom=0.0)
-    legend_above(figure, axes[0], f"{_whose(results)} torque")
+    outside = np.concatenate([values(results.outside, p, t) for p in chosen for t in torques])
+    _torque_legend(figure, axes[0], results, outside)
     return figure, axes
+
+
+def _torque_legend(figure: Figure, panel: Axes, results: Results, outside: np.ndarray) -> None:
+    handles, names = panel.get_legend_handles_labels()
+    legend_above(figure, with_hollow(handles, names, outside), f"{_whose(results)} torque")
 
 
 def is_wide(values: np.ndarray) -> bool:
@@ -203,8 +233,8 @@ def loss_over(results: Results, quantity: str, theta: int, *, fitted: bool = Fal
             x = results[quantity][:, theta, t, n] * AXIS[quantity][1]
             y = results["power_loss"][:, theta, t, n]
             fits.append(_line(panel, x, y, colour) if fitted else "")
-            within = ~results.outside[:, theta, t, n]
-            _points(panel, x, y, within, _equal_surfaces(results), colour)
+            at = _some_points(x, y)
+            points(panel, x[at], y[at], results.outside[at, theta, t, n], colour)
         panel.set_title(f"({letter}) {text}", loc="left")
         panel.set_xlabel(AXIS[quantity][0])
         if quantity == "film_parameter":
@@ -216,8 +246,9 @@ def loss_over(results: Results, quantity: str, theta: int, *, fitted: bool = Fal
         letters = ", ".join(f"({letter})" for letter, _ in zip("abc", torques))
         names = [f"{name}: R² {', '.join(fits)}" for name, fits in zip(names, squares)]
     title = f"{_whose(results)} speed" + (f", and R² of its lines in {letters}" if fitted else "")
-    handles = [_mark("o", colour) for colour in shades(len(speeds))]
-    legend_above(figure, (handles[::-1], names[::-1]), title, columns=2 if fitted else 6)
+    handles = [mark("o", colour) for colour in shades(len(speeds))]
+    outside = results.outside[:, theta][:, torques][..., speeds]
+    legend_above(figure, with_hollow(handles[::-1], names[::-1], outside), title, columns=2 if fitted else 6)
     axes[0].set_ylabel(AXIS["power_loss"][0])
     if results[quantity].min() < 0.3 * results[quantity].max():
         axes[0].set_xlim(left=0.0)
@@ -233,16 +264,6 @@ def has_own_scales(results: Results, theta: int) -> bool:
     return bool(most.max() > SCALE_RATIO * most.min())
 
 
-def _equal_surfaces(results: Results) -> np.ndarray:
-    return np.array([a == b for a, b in results.study.pairings])
-
-
-def _mark(shape: str, colour: Any) -> Any:
-    from matplotlib.lines import Line2D
-
-    return Line2D([], [], marker=shape, color=colour, linestyle="")
-
-
 def _line(panel: Axes, x: np.ndarray, y: np.ndarray, colour: Any) -> str:
     """Draw the regression line of all points and return its coefficient of determination."""
     if np.ptp(x) <= 1e-12 * np.abs(x).max() or np.ptp(y) == 0:
@@ -253,15 +274,9 @@ def _line(panel: Axes, x: np.ndarray, y: np.ndarray, colour: Any) -> str:
     return f"{np.corrcoef(x, y)[0, 1] ** 2:.3f}"
 
 
-def _points(panel: Axes, x: np.ndarray, y: np.ndarray, within: np.ndarray, equal: np.ndarray, colour: Any) -> None:
-    """Points of the pairings; of very many a selection that includes the extremes."""
-    drawn = np.zeros(x.size, dtype=bool)
-    drawn[np.argsort(x)[some(x.size, MOST_PAIRINGS)]] = True
-    drawn[[y.argmin(), y.argmax()]] = True
-    for shape, inside in (("o", within), ("v", ~within)):
-        for face, side in ((colour, equal), ("white", ~equal)):
-            at = drawn & inside & side
-            panel.plot(x[at], y[at], shape, color=colour, markerfacecolor=face, markeredgewidth=0.8)
+def _some_points(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """The points that are drawn: of very many a selection that includes the extremes."""
+    return np.unique([*np.argsort(x)[some(x.size, MOST_PAIRINGS)], y.argmin(), y.argmax()])
 
 
 def film_and_friction(results: Results, theta: int) -> Figure:
@@ -294,7 +309,7 @@ def film_and_friction(results: Results, theta: int) -> Figure:
     top = 1.05 * float(results["mean_friction"][list(ends), theta].max())
     for panel in axes[1:]:
         panel.set_ylim(0.0, top)
-    legend_above(figure, axes[0], f"{_whose(results)} torque")
+    _torque_legend(figure, axes[0], results, results.outside[list(ends), theta][:, torques])
     return figure
 
 

@@ -54,7 +54,7 @@ def test_the_loss_over_a_column_has_a_point_a_pairing(results, over: str) -> Non
     figure = ml.plot(results, over=over, oil_temperature_C=90)
     at = results.to_xarray().sel(oil_temperature_C=90, torque_Nm=50)
     points = np.array(
-        [(x, y) for line in figure.axes[0].lines if line.get_marker() in "ov" for x, y in line.get_xydata()]
+        [(x, y) for line in figure.axes[0].lines if line.get_marker() == "o" for x, y in line.get_xydata()]
     )
     expected = np.column_stack([at[over].values.ravel(), at["power_loss_W"].values.ravel()])
     np.testing.assert_allclose(points[np.lexsort(points.T)], expected[np.lexsort(expected.T)])

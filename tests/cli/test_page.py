@@ -311,9 +311,11 @@ def test_all_its_rows_are_saved_as_a_table(chart, rows):
 
 
 def test_ticks_and_names_stand_apart(chart):
-    """Ticks of the abscissa by at least 50 pixels, rows of the legend by at least 4; 500 to 3000 rpm had one each 100."""
-    ticks = chart.locator("#chart g.role-axis-label").first.locator("text").evaluate_all(
-        "all => all.map(one => one.getBoundingClientRect().x)"
+    """Ticks of the abscissa by at least 50 pixels, rows of the legend by at least 4."""
+    ticks = (
+        chart.locator("#chart g.role-axis-label")
+        .first.locator("text")
+        .evaluate_all("all => all.map(one => one.getBoundingClientRect().x)")
     )
     assert 4 <= len(ticks) <= 12
     assert np.diff(ticks).min() > 50

@@ -4,14 +4,15 @@ import numpy as np
 import pytest
 
 from mixedlub.report.figures import MOST_PANELS, equal_pairings, figures
-from mixedlub.report.plots import MOST_LEVELS, MOST_PAIRINGS
+from mixedlub.report.paper_figures import SHAPES, paper_figures
+from mixedlub.report.plots import MOST_LEVELS, MOST_PAIRINGS, OUTSIDE
 from mixedlub.study import read_study, run_study
-from tests.study.conftest import study_file
+from tests.study.conftest import BASE, study_file
 
 
 @pytest.fixture(scope="module")
 def many(tmp_path_factory):
-    from tests.study.conftest import BASE, toml
+    from tests.study.conftest import toml
 
     surfaces = {f"s{i}": {"m0_um2": 0.01 + 0.006 * i, "m2": 0.0025, "m4_per_um2": 0.0036} for i in range(26)}
     levels = {"from": 10, "to": 200, "count": 9}
@@ -79,7 +80,7 @@ def test_levels_in_any_order_are_drawn_from_low_to_high(write_study):
                 assert list(line.get_xdata()) == [500, 1500, 3000], drawn.name
         if drawn.name.startswith("power_loss"):
             (legend,) = drawn.figure.legends
-            assert [text.get_text() for text in legend.get_texts()] == ["50 N m", "150 N m"]
+            assert [text.get_text() for text in legend.get_texts()] == ["50 N m", "150 N m", OUTSIDE]
 
 
 def test_long_names_stay_within_their_panels(write_study):
@@ -117,7 +118,7 @@ def test_two_temperatures_need_no_figure_over_temperature(usual_drawn):
 @pytest.fixture(scope="module")
 def odd(tmp_path_factory):
     """Six speeds that are no whole numbers, torques from small to large, surfaces from smooth to rough."""
-    from tests.study.conftest import BASE, toml
+    from tests.study.conftest import toml
 
     surfaces = {f"surface{i}": {"m0_um2": 0.001 * 8**i, "m2": 0.0015, "m4_per_um2": 0.0036} for i in range(5)}
     conditions = {
@@ -145,9 +146,10 @@ def test_legends_stand_within_the_figure_and_off_the_panels(odd):
 def test_levels_are_told_in_four_digits(odd):
     for name in ("power_loss_equal", "loss_over_film_parameter"):
         for text in odd[name].figure.legends[0].get_texts():
-            assert len(text.get_text().split()[0].replace(".", "").lstrip("0")) <= 4
+            if text.get_text() != OUTSIDE:
+                assert len(text.get_text().split()[0].replace(".", "").lstrip("0")) <= 4
     labels = [t.get_text() for t in odd["loss_over_film_parameter"].figure.legends[0].get_texts()]
-    assert labels == ["2987 rpm", "1500 rpm", "961.2 rpm", "133.3 rpm", "0.9871 rpm", "0.9607 rpm"]
+    assert labels == ["2987 rpm", "1500 rpm", "961.2 rpm", "133.3 rpm", "0.9871 rpm", "0.9607 rpm", OUTSIDE]
 
 
 def test_labels_of_neighbouring_panels_do_not_touch(odd):
@@ -187,13 +189,24 @@ def test_ratios_near_zero_are_on_a_logarithmic_axis(odd):
     assert "logarithmic" in drawn.caption
 
 
-def test_points_outside_the_range_of_the_model_have_a_mark_of_their_own(write_study):
-    results = run_study(read_study(write_study()))
-    drawn = {d.name: d for d in figures(results)}["loss_over_roughness_60C"]
-    assert "Triangles: outside the model's range" in drawn.caption
-    outside = (results["asperity_load_ratio"][:, 0] > 1).sum()
-    marked = sum(len(line.get_xdata()) for a in drawn.figure.axes for line in a.lines if line.get_marker() == "v")
-    assert marked == outside
+def test_hollow_marks_are_outside_the_range_in_every_figure_and_the_legend_says_so(write_study):
+    """A shape tells a torque where one panel has several, and nothing else in any figure."""
+    surfaces = {**BASE["surfaces"], "smooth": {"m0_um2": 4e-4, "m2": 2e-4, "m4_per_um2": 4e-4}}
+    results = run_study(read_study(write_study(surfaces=surfaces, conditions__oil_temperature_C=[60])))
+    assert 0 < results.outside.sum() < results.outside.size
+    for drawn in (*figures(results), *paper_figures(results)):
+        (legend,) = drawn.figure.legends
+        told = {text.get_text(): handle for text, handle in zip(legend.get_texts(), legend.legend_handles)}
+        assert told["outside the model's range"].get_markerfacecolor() == "white", drawn.name
+        lines = [line for panel in drawn.figure.axes for line in panel.lines if line.get_marker() != "None"]
+        shapes = {line.get_marker() for line in lines if len(line.get_xdata())}
+        alone = drawn.name in ("paper_09_loss_over_film_parameter", "paper_10_loss_over_area_ratio")
+        assert shapes == (set(SHAPES[:2]) if alone else {"o"}), drawn.name
+        if alone:
+            assert {told["50 N m"].get_marker(), told["150 N m"].get_marker()} == shapes
+    panels = {d.name: d for d in figures(results)}["loss_over_roughness"].figure.axes
+    faces = [(line.get_markerfacecolor(), len(line.get_xdata())) for a in panels for line in a.lines]
+    assert sum(count for face, count in faces if isinstance(face, str) and face == "white") == results.outside.sum()
 
 
 def test_the_outermost_pairings_are_among_those_drawn(many, many_drawn):
