@@ -128,10 +128,11 @@ class FrictionLaw(Documented):
 
 def shown_unit(quantity: str) -> str:
     """Unit in which a page gives a quantity."""
-    return _unit(quantity)[0].removeprefix("-")
+    return unit_and_factor(quantity)[0].removeprefix("-")
 
 
-def _unit(quantity: str) -> tuple[str, float]:
+def unit_and_factor(quantity: str) -> tuple[str, float]:
+    """That unit, and the factor to it from SI."""
     unit = GLOSSARY[quantity].unit
     return _OWN_UNIT.get(quantity) or _SHOWN.get(unit, (unit, 1.0))
 
@@ -142,7 +143,7 @@ def _range(name: str, low: float, high: float) -> str:
     >>> _range("kinematic_viscosity", 4e-6, 500e-6), _range("pitch_line_speed", 0.0, 50.0)
     ('kinematic viscosity 4 to 500 mm²/s', 'pitch line speed up to 50 m/s')
     """
-    unit, factor = _unit(name)
+    unit, factor = unit_and_factor(name)
     ends = f"{low * factor:.4g} to {high * factor:.4g}"
     if not np.isfinite(high):
         ends = f"from {low * factor:.4g}"

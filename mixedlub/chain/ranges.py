@@ -23,3 +23,17 @@ def beyond(state: Mapping[str, Any], valid: Mapping[str, tuple[float, float]]) -
         for name, (low, high) in valid.items()
     )
     return ~reduce(np.logical_and, within, np.ones(1, bool))
+
+
+def farthest_beyond(value: np.ndarray, ends: tuple[float, float], where: np.ndarray) -> np.ndarray:
+    """The value that lies farthest beyond a range along the last axis, kept as one; NaN where none does.
+
+    >>> where = np.array([True, True, False])
+    >>> farthest_beyond(np.array([[3.0, 1.5, 9.0], [1.0, 2.0, 9.0]]), (0.0, 2.0), where).tolist()
+    [[3.0], [nan]]
+    """
+    off = where & beyond({"value": value}, {"value": ends})
+    value = np.broadcast_to(np.where(np.isnan(value), np.inf, value), off.shape)
+    most = np.max(value, axis=-1, keepdims=True, where=off, initial=-np.inf)
+    least = np.min(value, axis=-1, keepdims=True, where=off, initial=np.inf)
+    return np.where(off.any(axis=-1, keepdims=True), np.where(most > ends[1], most, least), np.nan)

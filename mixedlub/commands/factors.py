@@ -56,7 +56,7 @@ def command(
     with progress_bar("computing") as bar:
         random = experiment.file.design.random
         table, decided = (random_design if random else full_factorial)(
-            experiment, resumed(bar), parts_folder(folder, experiment)
+            experiment, resumed(bar, "runs"), parts_folder(folder, experiment)
         )
     echo(f"computed in {time.perf_counter() - start:.2f} s")
     with writing(folder) as aside:

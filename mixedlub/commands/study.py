@@ -105,15 +105,15 @@ def command(
     echo(f"results in {folder / 'results.csv'} and .parquet" + (f", page {page}" if figures else ""))
 
 
-def resumed(progress: Callable[[int, int], None]) -> Callable[[int, int], None]:
-    """The same progress callback, which first reports the blocks of an earlier run."""
+def resumed(progress: Callable[[int, int], None], parts: str = "blocks") -> Callable[[int, int], None]:
+    """The same progress callback, which first reports the parts that are kept from an earlier run."""
     calls = 0
 
     def counted(done: int, of: int) -> None:
         nonlocal calls
         calls += 1
         if calls == 1 and done:
-            echo(f"{done} of {of} blocks are there from an earlier run")
+            echo(f"{done} of {of} {parts} are kept from an earlier start, {of - done} are computed")
         progress(done, of)
 
     return counted

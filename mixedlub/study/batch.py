@@ -19,7 +19,7 @@ from functools import cache
 import numpy as np
 
 from mixedlub.chain.model import Model, Step
-from mixedlub.chain.ranges import beyond
+from mixedlub.chain.ranges import farthest_beyond
 from mixedlub.cluster import on_cluster
 from mixedlub.laws.contact import asperity_load_ratio, mean_hertz_pressure
 from mixedlub.laws.load import carries_load
@@ -60,7 +60,7 @@ SHARED_CHECKS = ("balance_error", "film_below_its_share")
 FILM_OVER_WIDTH = "film_over_contact_width"
 """Check: the largest film of the path over the width of the Hertz contact there."""
 BEYOND = "beyond_"
-"""Before the name of an effect or law: the check that is 1 where it is used outside the range in which it holds."""
+"""Before an effect or law and a quantity of its range: the value farthest beyond this range, NaN where none is."""
 BLOCK_POINTS = 4_000_000
 
 Found = dict[str, np.ndarray]
@@ -90,7 +90,6 @@ def _outputs(plan: Plan) -> tuple[str, ...]:
 def _own_names(plan: Plan) -> tuple[str, ...]:
     """Names without the ends of bands."""
     shared = (*SHARED, *SHARED_CHECKS) if plan.balanced else ()
-    law = () if plan.friction is None else (BEYOND + plan.friction.name,)
     losses = map(loss_of, plan.losing)
     return (
         *OUTPUTS,
@@ -101,8 +100,7 @@ def _own_names(plan: Plan) -> tuple[str, ...]:
         *CHECKS,
         FILM_OVER_WIDTH,
         *shared,
-        *(BEYOND + name for name in plan.ranges),
-        *law,
+        *(BEYOND + name for name, *_ in plan.range_ends),
     )
 
 
@@ -214,10 +212,8 @@ def reduced(state: Inputs, plan: Plan) -> Found:
         **{name: state[name] for name in (*(SPUR if plan.spur else ()), *map(loss_of, plan.losing))},
         **(_shared(state, judged, mean_pressure) if plan.balanced else {}),
     }
-    for name, valid in plan.ranges.items():
-        found[BEYOND + name] = np.any(judged & beyond(state, valid), axis=-1, keepdims=True)
-    if plan.friction is not None:
-        found[BEYOND + plan.friction.name] = np.any(judged & plan.friction.outside(state), axis=-1, keepdims=True)
+    for name, quantity, ends in plan.range_ends:
+        found[BEYOND + name] = farthest_beyond(state[quantity], ends, judged)
     return found
 
 

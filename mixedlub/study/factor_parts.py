@@ -34,13 +34,15 @@ def in_chunks(
     chunks = [experiment.runs[i : i + size] for i in range(0, len(experiment.runs), size)]
     parts = None if len(chunks) == 1 else parts
     kept = {} if parts is None else {k: found for k in range(len(chunks)) if (found := _kept(parts, k)) is not None}
-    progress(len(kept), len(chunks))
+    done = sum(len(chunks[k]) for k in kept)
+    progress(done, len(experiment.runs))
     for k, chunk in enumerate(chunks):
         if k not in kept:
             kept[k] = rows_of(chunk)
             if parts is not None:
                 _keep(parts, k, kept[k])
-            progress(len(kept), len(chunks))
+            done += len(chunk)
+            progress(done, len(experiment.runs))
     return pd.concat([kept[k] for k in range(len(chunks))], ignore_index=True)
 
 

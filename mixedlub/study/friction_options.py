@@ -37,10 +37,11 @@ def check_oil(law: FrictionLaw, given: Mapping[str, float], oil: Lubricant, plac
         if wanted > 0.0 and abs(own / wanted - 1.0) > one.tolerance:
             unit = next(c.unit for c in law.coefficients if c.name == name)
             rule = (
-                f"the oil of the study, {oil.name}, has {own:.4g} {unit}; the two must agree within "
-                f"{100.0 * one.tolerance:g} %, since {law.name} friction is for one oil: make it from that of the study"
+                f"the law is made from an oil of {wanted:.4g} {unit}, that of the study, {oil.name}, has {own:.4g} "
+                f"{unit}; the two must agree within {100.0 * one.tolerance:g} %, since {law.name} friction is for one "
+                "oil: make it from that of the study"
             )
-            raise InputError(rule, where=f"{place}: {name}", value=float(f"{wanted:.4g}"))
+            raise InputError(rule, where=f"{place}: {name}")
 
 
 def check_viscosity(options: Options, oil: Lubricant) -> None:

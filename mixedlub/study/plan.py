@@ -67,6 +67,8 @@ HEAT = "nominal_loss"
 """Input of effects that read the heat of the mesh."""
 MOST_CONTACT_RATIO = 2.0
 """Largest contact ratio for which Ohlendorf's loss factor is made."""
+MOST_FRICTION = 1e300
+"""Largest friction coefficient that is a number: a law that diverges has more."""
 AREA_ALONE = ("balance", "asperities", "mixture", "heights")
 """Options at whose defaults an effect on the contact area needs no other change."""
 
@@ -109,11 +111,10 @@ class Plan:
         return by_origin(self._model((*also, *(name for valid in self.ranges.values() for name in valid))))
 
     def _model(self, checked: Iterable[str]) -> Model:
-        of_friction = () if self.friction is None else self.friction.checked
         of_balance = BALANCED if self.balanced else ()
         rated = RATED if self.rates_films else ()
         of_films = tuple(name for name, _ in rated[-1:])
-        wanted = dict.fromkeys((*WANTED, *of_balance, *self.asperities_read, *of_friction, *checked, *of_films))
+        wanted = dict.fromkeys((*WANTED, *of_balance, *self.asperities_read, *checked, *of_films))
         chain = (*self.chain(self.options), *FURTHER, *rated)
         return Model(chain, tuple(self.inputs), tuple(wanted), self.effects)
 
@@ -131,7 +132,14 @@ class Plan:
         known |= {c.law.__name__: c.valid for c in chosen}
         if self.options.film_roughness != "none":
             known["rough_film"] = {"film_over_roughness": (THINNEST, np.inf)}
+        if self.friction is not None:
+            known[self.friction.name] = {**self.friction.valid, "friction": (0.0, MOST_FRICTION)}
         return {name: valid for name, valid in known.items() if valid}
+
+    @property
+    def range_ends(self) -> tuple[tuple[str, str, tuple[float, float]], ...]:
+        """Every range: its name, of the effect or law and the quantity, the quantity, and both ends in SI."""
+        return tuple((f"{n}:{q}", q, ends) for n, valid in self.ranges.items() for q, ends in valid.items())
 
     @property
     def _of_heights(self) -> Mapping[str, Law]:

@@ -38,7 +38,12 @@ def flags(plan: Plan, values: Mapping[str, np.ndarray], notes: Iterable[Finding]
         "film_carries_too_little": values.get("film_below_its_share", within) > 0.0,
         "area_ratio_limited": values["largest_area_ratio"] >= 1.0,
         "bandwidth_limited": np.broadcast_to(narrow, plan.shape),
-        **{EXTRAPOLATED + name.removeprefix(BEYOND): v > 0.0 for name, v in values.items() if name.startswith(BEYOND)},
+        **{
+            EXTRAPOLATED + law: np.logical_or.reduce(
+                [~np.isnan(values[f"{BEYOND}{law}:{quantity}"]) for quantity in valid]
+            )
+            for law, valid in plan.ranges.items()
+        },
     }
     if any(note.code == EXTRAPOLATED.rstrip(":") for note in notes):
         found[OF_SHARING] = np.ones(plan.shape, dtype=bool)

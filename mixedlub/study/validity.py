@@ -7,12 +7,13 @@ from typing import Protocol
 
 import numpy as np
 
+from mixedlub.chain.friction_law import unit_and_factor
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.rig.plausibility import YIELD_RATIO
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.slots import SLOTS
-from mixedlub.study.batch import FILM_OVER_WIDTH
-from mixedlub.study.plan import Plan, Study
+from mixedlub.study.batch import BEYOND, FILM_OVER_WIDTH
+from mixedlub.study.plan import MOST_FRICTION, Study
 from mixedlub.study.range_flags import EXTRAPOLATED, OF_SHARING
 
 
@@ -39,7 +40,7 @@ def out_of_range(results: Results) -> tuple[Finding, ...]:
 def _finding(results: Results, code: str, where: np.ndarray) -> Finding:
     count = f"{int(where.sum())} of {where.size} conditions ({_pairings(results, where)})"
     if code.startswith(EXTRAPOLATED):
-        return finding("law_extrapolated", f"in {count} {_range(results.study.plan, code)}", _place(results, code))
+        return finding("law_extrapolated", f"in {count} {_range(results, code)}", _place(results, code))
     return finding(code, _TEXTS[code](results, count))
 
 
@@ -94,23 +95,33 @@ _TEXTS: Mapping[str, Callable[[Results, str], str]] = {
 }
 
 
-def _range(plan: Plan, code: str) -> str:
+def _range(results: Results, code: str) -> str:
     name = code.removeprefix(EXTRAPOLATED)
-    if plan.friction is not None and name == plan.friction.name:
-        spans = "; ".join(plan.friction.ranges()) or "no negative friction"
-    else:
-        spans = "; ".join(_span(quantity, *ends) for quantity, ends in plan.ranges[name].items())
-    return f"{name} is used at points of the path that are outside the range in which it holds: {spans}"
+    reached = {q: (ends, results[f"{BEYOND}{name}:{q}"]) for q, ends in results.study.plan.ranges[name].items()}
+    spans = [_span(q, *ends, values) for q, (ends, values) in reached.items() if not np.isnan(values).all()]
+    return f"{name} is used at points of the path that are outside the range in which it holds: {'; '.join(spans)}"
 
 
-def _span(quantity: str, low: float, high: float) -> str:
-    """The range of a quantity in words.
+def _span(quantity: str, low: float, high: float, values: np.ndarray) -> str:
+    """The range of a quantity in words, and how far beyond it the values are that are not NaN.
 
-    >>> _span("moes_load", 2.0, np.inf), _span("fluid_friction", 0.0, 0.12)
-    ("Moes' load parameter of a line contact of at least 2", 'friction coefficient of the film 0 to 0.12')
+    >>> _span("moes_load", 2.0, np.inf, np.array([1.5, np.nan]))
+    "Moes' load parameter of a line contact of at least 2, here down to 1.5"
+    >>> _span("shear_stress", 0.0, 90e6, np.array([95e6, -1e6, 120e6]))
+    'shear stress of the film 0 to 90 MPa, here down to -1 and up to 120 MPa'
     """
-    ends = f"{low:g} to {high:g}" if np.isfinite(high) else f"of at least {low:g}"
-    return f"{GLOSSARY[quantity].meaning} {ends} {GLOSSARY[quantity].unit.removeprefix('-')}".rstrip()
+    unit, factor = unit_and_factor(quantity)
+    unit = unit.removeprefix("-")
+    ends = f"of at least {low * factor:.4g}"
+    if high < MOST_FRICTION:
+        ends = f"{low * factor:.4g} to {high * factor:.4g}"
+    values = values[~np.isnan(values)] * factor
+    reach = []
+    if values.min() < low * factor:
+        reach.append(f"down to {values.min():.4g}")
+    if values.max() > high * factor:
+        reach.append(f"up to {values.max():.4g}")
+    return f"{GLOSSARY[quantity].meaning} {ends} {unit}".rstrip() + f", here {' and '.join(reach)} {unit}".rstrip()
 
 
 def _place(results: Results, code: str) -> str:

@@ -94,7 +94,7 @@ def test_a_band_leaves_the_results_as_they_are(pool, of_profiles):
     with_band = run_study(of_profiles({"a": pool[:3], "b": pool[3:6]}, options__bands="both"))
     without = run_study(of_profiles({"a": pool[:3], "b": pool[3:6]}))
     for name, values in without.values.items():
-        assert np.array_equal(values, with_band[name]), name
+        assert np.array_equal(values, with_band[name], equal_nan=True), name
 
 
 def test_the_band_of_short_cutoffs_ends_at_half_one_and_two(pool, of_profiles):

@@ -33,8 +33,14 @@ def test_a_study_takes_the_law_from_its_file(write_study: Any, tmp_path: Path) -
 @pytest.mark.parametrize(
     ("oil", "said"),
     [
-        ({"oil": "atf"}, "oil_viscosity_40C: 83.3: the oil of the study"),
-        ({"oil": "m100", "eyring_stress_MPa": 8.0}, "oil_eyring_stress: 4.9: the oil of the study"),
+        (
+            {"oil": "atf"},
+            "oil_viscosity_40C: the law is made from an oil of 83.3 mPa s, that of the study, Automatic transmission",
+        ),
+        (
+            {"oil": "m100", "eyring_stress_MPa": 8.0},
+            "oil_eyring_stress: the law is made from an oil of 4.9 MPa, that of the study, M100",
+        ),
         ({"oil": "m100", "pressure_viscosity_per_GPa": [12.0, 9.0]}, "oil_pressure_viscosity_40C"),
     ],
 )
@@ -61,7 +67,11 @@ def test_an_oil_as_it_is_measured_again_is_the_same_oil(write_study: Any) -> Non
 def test_conditions_beyond_the_solutions_are_flagged(write_study: Any) -> None:
     coefficients = tomllib.loads(EXAMPLE.read_text())["coefficients"]
     options = {"friction": "condensed", "friction_coefficients": coefficients | {"largest_hertz_pressure_GPa": 0.41}}
-    assert run_study(read_study(write_study(**OF_OIL, options=options))).flags["law_extrapolated:condensed"].any()
+    results = run_study(read_study(write_study(**OF_OIL, options=options)))
+    assert results.flags["law_extrapolated:condensed"].any()
+    (told,) = (one.text for one in results.findings if one.code == "law_extrapolated")
+    most = 1e-6 * results["hertz_pressure"].max()
+    assert f"to 410 MPa, here up to {most:.4g} MPa" in told
 
 
 @pytest.mark.parametrize(

@@ -285,15 +285,31 @@ def test_an_interrupted_run_resumes(design, run, write_factors, tmp_path, monkey
     parts, seen = factor_parts.parts_folder(tmp_path, varied), []
 
     def stop(done, of):
-        if done == 2:
+        if done == 4:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
         run(varied, stop, parts)
     (parts / "runs_0.parquet").write_bytes(b"half")
-    resumed, _ = run(varied, lambda done, of: seen.append(done), parts)
-    assert seen[0] == 1, "the chunk that was kept whole"
+    resumed, _ = run(varied, lambda done, of: seen.append((done, of)), parts)
+    assert seen[0] == (2, len(varied.runs)), "the runs of the chunk that was kept whole"
+    assert seen[-1] == (len(varied.runs), len(varied.runs))
     pd.testing.assert_frame_equal(resumed, uninterrupted)
+
+
+def test_a_resumed_command_says_how_many_runs_are_kept(write_factors, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(factor_parts, "MOST_RUNS", 1)
+    path, out = write_factors({"boundary_friction": [0.08, 0.1, 0.12]}, {}), tmp_path / "o"
+    varied = experiment(path)
+
+    def stop(done, of):
+        if done == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        full_factorial(varied, stop, factor_parts.parts_folder(out, varied))
+    assert main(["factors", str(path), "--out", str(out)]) == 0
+    assert "2 of 3 runs are kept from an earlier start, 1 are computed" in capsys.readouterr().out
 
 
 def test_parts_are_gone_when_the_command_is_done(write_factors, tmp_path, monkeypatch):
