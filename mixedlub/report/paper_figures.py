@@ -97,7 +97,7 @@ def _small(results: Results, quantity: str, chosen: Sequence[int] | np.ndarray, 
             y = results[quantity][pairing, theta, t, order]
             panel.plot(thousands, y, color=colour)
             if has_bands(results):
-                low, high = (values[pairing, theta, t, order] for values in _ends(results, quantity))
+                low, high = (results[end + quantity][pairing, theta, t, order] for end in (LOW, HIGH))
                 panel.fill_between(thousands, low, high, color=colour, alpha=0.2, linewidth=0.0)
             points(panel, thousands, y, results.outside[pairing, theta, t, order], colour)
         panel.set_title(title, loc="left")
@@ -116,14 +116,6 @@ def _small(results: Results, quantity: str, chosen: Sequence[int] | np.ndarray, 
     outside = results.outside[chosen, theta][:, torques]
     _legend(figure, *with_hollow(handles, _torques(results, torques), outside), 3)
     return figure
-
-
-def _ends(results: Results, quantity: str) -> tuple[np.ndarray, np.ndarray]:
-    """Both ends of the band of a quantity; a normalised loss takes those of the loss, over the largest loss."""
-    if quantity != "normalised_loss":
-        return results[LOW + quantity], results[HIGH + quantity]
-    most = results["power_loss"].max()
-    return results[f"{LOW}power_loss"] / most, results[f"{HIGH}power_loss"] / most
 
 
 def _by_torque(results: Results, quantity: str, theta: int) -> Figure:

@@ -23,7 +23,7 @@ FACTORS = (1.0, 0.5, 2.0)
 """Short cut-offs over those of the study, its own first."""
 LOW, HIGH = "lowest_", "highest_"
 """Before the name of an output: the ends of its band."""
-AT_MOST_ONE = ("area_ratio", "mean_asperity_load_share")
+AT_MOST_ONE = ("area_ratio", "mean_asperity_load_share", "asperity_load_share", "efficiency", "tooth_efficiency")
 
 Pairs = list[tuple[Surface, Surface]]
 Values = Mapping[str, Any]

@@ -24,8 +24,9 @@ from mixedlub.cluster import on_cluster
 from mixedlub.laws.contact import asperity_load_ratio, mean_hertz_pressure
 from mixedlub.laws.load import carries_load
 from mixedlub.laws.loss import over_path
-from mixedlub.study.bands import HIGH, LOW, band
+from mixedlub.study.bands import band
 from mixedlub.study.columns import loss_of
+from mixedlub.study.derived import following
 from mixedlub.study.pieces import PIECE_PAIRINGS, PIECE_POINTS, Block, Inputs, reach, split, taken
 from mixedlub.study.plan import Plan
 
@@ -78,17 +79,7 @@ def blocks(plan: Plan) -> list[Block]:
 
 
 def names(plan: Plan) -> tuple[str, ...]:
-    """Names of the outputs, checks and ends of bands of a plan."""
-    ends = (end + name for name in _outputs(plan) for end in (LOW, HIGH)) if plan.bands else ()
-    return (*_own_names(plan), *ends)
-
-
-def _outputs(plan: Plan) -> tuple[str, ...]:
-    return (*OUTPUTS, *(SHARED if plan.balanced else ()))
-
-
-def _own_names(plan: Plan) -> tuple[str, ...]:
-    """Names without the ends of bands."""
+    """Names of the outputs and checks of a plan, without the ends of bands."""
     shared = (*SHARED, *SHARED_CHECKS) if plan.balanced else ()
     losses = map(loss_of, plan.losing)
     return (
@@ -110,19 +101,25 @@ def compute(plan: Plan, block: Block) -> Found:
     if not plan.bands:
         return found
 
-    def at(inputs: Inputs) -> Found:
-        return _computed(replace(plan, inputs={**plan.inputs, **inputs}), block)
+    inputs = taken(plan.inputs, block)
+    outputs = (*OUTPUTS, *(SHARED if plan.balanced else ()), *(RATED_FILMS if plan.rates_films else ()))
+
+    def with_following(found: Found) -> Found:
+        return {**{name: found[name] for name in outputs}, **following(plan, inputs, found)}
+
+    def at(moved: Inputs) -> Found:
+        return with_following(_computed(replace(plan, inputs={**plan.inputs, **moved}), block))
 
     spread = []
     for group in plan.bands:
-        own = found if group is plan.bands[0] else at(group.own)
+        own = with_following(found) if group is plan.bands[0] else at(group.own)
         spread.append((own, [(at(low), at(high)) for low, high in group.axes]))
-    return found | band(spread, _outputs(plan))
+    return found | band(spread, tuple(spread[0][0]))
 
 
 def _computed(plan: Plan, block: Block) -> Found:
     shape = tuple(s.stop - s.start for s in block)
-    found = {name: np.empty(shape) for name in _own_names(plan)}
+    found = {name: np.empty(shape) for name in names(plan)}
     with np.errstate(all="ignore"):
         _fill(plan, block, found)
     return found

@@ -3,39 +3,57 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
 from mixedlub.gear import GearPair
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.laws.safety import flash_safety, integral_safety, integral_temperature
+from mixedlub.study.bands import HIGH, LOW
 from mixedlub.study.heat import BULK
 from mixedlub.study.plan import MOST_CONTACT_RATIO, Plan
 from mixedlub.study.schema import Safety
 
 
-def derived(plan: Plan, pair: GearPair, values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Power taken in, efficiencies, Ohlendorf's loss factor, normalised loss and others, in the shape of the study."""
-    total, power = values["power_loss"], _input_power(plan)
-    inlet = np.broadcast_to(np.asarray(plan.inputs["oil_temperature"])[..., 0], plan.shape)
-    oil = inlet - plan.options.bulk_temperature_rise_K
-    bulk = inlet + np.asarray(plan.inputs["bulk_rise"] + np.zeros(1))[..., 0]
+def following(plan: Plan, inputs: Mapping[str, Any], values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """What follows from the outputs at each condition of a part, whose inputs these are: they have bands as well."""
+    total, power = values["power_loss"], _input_power(inputs)
+    inlet, bulk = _temperatures(inputs)
     contact = bulk + values["flash_temperature"]
-    found = {
-        "normalised_loss": total / total.max(),
-        "input_power": np.broadcast_to(power, plan.shape),
+    return {
         "efficiency": 1.0 - total / power,
         "tooth_efficiency": 1.0 - (values["mesh_loss"] + values["rolling_loss"]) / power,
         "least_film_parameter": values["least_film"] / values["composite_roughness"],
         "asperity_load_share": np.minimum(values["asperity_load_ratio"], 1.0),
         "contact_temperature": contact,
-        **_rated(plan.safety, values, oil, bulk, contact),
+        **_rated(plan.safety, values, inlet - plan.options.bulk_temperature_rise_K, bulk, contact),
+    }
+
+
+def derived(plan: Plan, pair: GearPair, values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """That of the whole study, and what no surface changes or needs all conditions, in the shape of the study."""
+    most = values["power_loss"].max()
+    found = {
+        **following(plan, plan.inputs, values),
+        "input_power": np.broadcast_to(_input_power(plan.inputs), plan.shape),
+        **{
+            end + "normalised_loss": values[end + "power_loss"] / most
+            for end in ("", LOW, HIGH)
+            if end + "power_loss" in values
+        },
     }
     if BULK in plan.parameters:
-        found["bulk_temperature"] = bulk
+        found["bulk_temperature"] = np.broadcast_to(_temperatures(plan.inputs)[1], plan.shape)
     if plan.spur and pair.contact_ratio <= MOST_CONTACT_RATIO:
         found["loss_factor"] = np.full(plan.shape, pair.loss_factor)
     return found
+
+
+def _temperatures(inputs: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray]:
+    """Of the oil at the inlet, and of the teeth (K)."""
+    inlet = np.asarray(inputs["oil_temperature"])[..., 0]
+    return inlet, inlet + np.asarray(inputs["bulk_rise"] + np.zeros(1))[..., 0]
 
 
 def _rated(
@@ -56,6 +74,6 @@ def _rated(
     return found
 
 
-def _input_power(plan: Plan) -> np.ndarray:
+def _input_power(inputs: Mapping[str, Any]) -> np.ndarray:
     """Torque times angular speed of the pinion (W)."""
-    return np.asarray(plan.inputs["torque"] * plan.inputs["pinion_speed"])[..., 0]
+    return np.asarray(inputs["torque"] * inputs["pinion_speed"])[..., 0]

@@ -215,7 +215,7 @@ def run_study(
 ) -> Results:
     """Run a study; with a folder for parts, finished blocks are saved and those of an earlier run are reused."""
     refuse_other(study, Study, "ml.study.read_study(...)", "study.run_study: study")
-    values = {name: np.empty(study.plan.shape) for name in batch.names(study.plan)}
+    values: dict[str, np.ndarray] = {}
     todo = batch.blocks(study.plan)
     waiting = {checkpoint.block_name(b): b for b in todo}
     total, done = len(todo), 0
@@ -223,14 +223,14 @@ def run_study(
         parts = None
     if parts is not None:
         for block, found in checkpoint.kept(parts, todo):
-            _fill(values, block, found)
+            _fill(values, study.plan.shape, block, found)
             del waiting[checkpoint.block_name(block)]
         done = total - len(waiting)
     progress(done, total)
     for block, found in batch.run(study.plan, list(waiting.values()), scheduler=scheduler, threads=threads):
         if parts is not None:
             checkpoint.keep(parts, block, found)
-        _fill(values, block, found)
+        _fill(values, study.plan.shape, block, found)
         done += 1
         progress(done, total)
     return _whole(study, values)
@@ -265,6 +265,6 @@ def _check_finite(results: Results) -> None:
             raise InputError(rule, where=where)
 
 
-def _fill(values: Mapping[str, np.ndarray], block: Block, found: batch.Found) -> None:
+def _fill(values: dict[str, np.ndarray], shape: tuple[int, ...], block: Block, found: batch.Found) -> None:
     for name, part in found.items():
-        values[name][block] = part
+        values.setdefault(name, np.empty(shape))[block] = part

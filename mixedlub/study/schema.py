@@ -158,7 +158,7 @@ class Options(_Laws):
         },
     )
     bands: Literal["none", "traces", "short_cutoff", "both"] = key(
-        "low and high columns of every result",
+        "low and high columns of every result that the surfaces change",
         "none",
         values={
             "none": "no bands",

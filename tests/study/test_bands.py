@@ -86,6 +86,40 @@ def test_columns_stand_behind_the_others_with_units(pool, of_profiles):
     assert (table["hertz_pressure_low_MPa"] == table["hertz_pressure_MPa"]).all()
 
 
+def test_what_follows_from_the_surfaces_has_bands_and_what_does_not_has_none(pool, of_profiles):
+    limits = {
+        "scuffing_temperature_C": 250.0,
+        "integral_scuffing_temperature_C": 200.0,
+        "flash_weight": 1.5,
+        "permissible_film_ratio": 0.3,
+    }
+    changes = {"options__bands": "traces", "safety": limits, "effects": {"bulk_temperature": {}}}
+    table = run_study(of_profiles({"a": pool[:3], "b": pool[3:6]}, **changes)).to_pandas()
+    followed = (
+        "contact_temperature{}_C",
+        "efficiency{}",
+        "tooth_efficiency{}",
+        "normalised_loss{}",
+        "minimum_film_parameter{}",
+        "asperity_load_share{}",
+        "scuffing_safety_flash{}",
+        "integral_temperature{}_C",
+        "scuffing_safety_integral{}",
+        "micropitting_film_ratio{}",
+        "micropitting_safety{}",
+    )
+    for name in followed:
+        low, own, high = (table[name.format(end)] for end in ("_low", "", "_high"))
+        assert ((low <= own) & (own <= high)).all(), name
+        assert (low < high).any(), name
+    loss = table["power_loss_high_W"] / table["power_loss_W"]
+    assert (table["normalised_loss_high"] / table["normalised_loss"]).to_numpy() == pytest.approx(loss.to_numpy())
+    alone = ("input_power_W", "loss_factor_H_V", "loss_factor_H_VL", "bulk_temperature_C")
+    banded = {name.replace("_low", "") for name in table if "_low" in name}
+    assert set(alone) <= set(table)
+    assert not banded & set(alone)
+
+
 def test_without_bands_there_are_no_such_columns(pool, of_profiles):
     assert not [c for c in run_study(of_profiles({"a": pool[:3]})).to_pandas() if "_low" in c or "_high" in c]
 
