@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 
 from mixedlub import friction
 from mixedlub.chain.documented import check_given
 from mixedlub.chain.friction_law import FrictionLaw
-from mixedlub.chain.model import Model, available
-from mixedlub.effects import known_in
+from mixedlub.chain.model import Model
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.schema.findings import finding, report
-from mixedlub.study.options import ignored, study_chain
+from mixedlub.study.options import ignored
 from mixedlub.study.schema import Options, StudyFile
 from profiles.errors import InputError
 
@@ -53,22 +52,6 @@ def check_viscosity(options: Options, oil: Lubricant) -> None:
     elif oil.pressure_modulus is not None:
         text = f"{options.viscosity_law} in place of the modulus equation, whose constants the oil has"
         report(finding("oil_law_unread", text, "options.viscosity_law"))
-
-
-def check_effects(file: StudyFile, given: Sequence[str]) -> None:
-    """Refuse effects on what the friction law does not read."""
-    if file.options.friction == friction.BASE:
-        return
-    base = study_chain(Options())
-    chain = study_chain(file.options)
-    own = known_in("gear_pair")
-    for name in file.effects:
-        reaches = [name in own and available(own[name], c, given, "power_loss", "gear_pair") for c in (base, chain)]
-        if reaches == [True, False]:
-            rule = (
-                f"would change nothing, as friction = {file.options.friction!r} does not read it; leave one of them out"
-            )
-            raise InputError(rule, where=f"effects.{name}")
 
 
 def check_friction(file: StudyFile, model: Model) -> None:

@@ -15,7 +15,7 @@ import numpy as np
 from mixedlub import friction
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Chain, Law, Model, Parameters
-from mixedlub.effects import LAW, find, known_effects
+from mixedlub.effects import find
 from mixedlub.friction import FrictionLaw
 from mixedlub.gear import GearPair, Mesh
 from mixedlub.gear.inputs import motion_inputs
@@ -31,14 +31,14 @@ from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, report
 from mixedlub.slots import ASPERITY_LOAD, SLOTS
 from mixedlub.study.bands import Group, groups
+from mixedlub.study.chosen_effects import chosen_effects
 from mixedlub.study.friction_options import (
     check_coefficients,
-    check_effects,
     check_friction,
     check_oil,
     check_viscosity,
 )
-from mixedlub.study.heat import LOSS, check_exponent, heat_inputs, rating_inputs
+from mixedlub.study.heat import LOSS, heat_inputs, rating_inputs
 from mixedlub.study.heights import HeightTables, height_tables
 from mixedlub.study.options import FURTHER, RATED, at_hardness, ignored, study_chain
 from mixedlub.study.origins import by_origin, losing
@@ -69,8 +69,6 @@ MOST_CONTACT_RATIO = 2.0
 """Largest contact ratio for which Ohlendorf's loss factor is made."""
 MOST_FRICTION = 1e300
 """Largest friction coefficient that is a number: a law that diverges has more."""
-AREA_ALONE = ("balance", "asperities", "mixture", "heights")
-"""Options at whose defaults an effect on the contact area needs no other change."""
 
 BY_AREA = (
     "asperities that carry nearly all of the load get almost no friction, and the order of finishes can reverse, "
@@ -314,7 +312,7 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     if any(HEAT in e.reads for e in find(sorted(file.effects), "effects")):
         bare = Model(study_chain(options, {} if heights is None else heights.laws()), tuple(inputs), (LOSS,))
         inputs |= heat_inputs(bare, inputs, shape, points.position.size)
-    effects, parameters = _effects(file, inputs)
+    effects, parameters = chosen_effects(file, inputs)
     moved = groups(options.bands, rig, surfaces, chosen, surface_inputs)
     inputs |= rating_inputs(inputs, parameters)
     plan = Plan(inputs, options, parameters, shape, points.position.size, moved, heights, file.safety)
@@ -380,43 +378,3 @@ def surface_inputs(pairs: list[tuple[Surface, Surface]]) -> dict[str, np.ndarray
     both = paired([a for a, _ in pairs], [b for _, b in pairs])
     alike = {name for name in SOLIDS if np.ptp(both[name]) == 0.0}
     return {name: (v[:1] if name in alike else v).reshape(-1, 1, 1, 1, 1) for name, v in both.items()}
-
-
-def _effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, ...], Parameters]:
-    """The active effects, each parameter at its given value or as its law has it."""
-    check_effects(file, tuple(inputs))
-    for e in find(sorted(file.effects), "effects"):
-        _refuse_ignored(e, file.options)
-    known = known_effects(file.effects, "gear_pair", study_chain(file.options), tuple(inputs), "power_loss")
-    for effect, name in known.sds:
-        raise InputError("a study has no uncertainty; leave it out", where=f"effects.{effect}.{name}_sd")
-    check_exponent(known.values)
-    for e in known.effects:
-        _tell_defaults(e, file.effects[e.id], known.values[e.id])
-    return known.effects, known.values
-
-
-def _refuse_ignored(e: Effect, options: Options) -> None:
-    """Refuse an effect on the contact area alone where asperities carry load by a law that does not know of it."""
-    default = Options()
-    changed = [
-        f'{name} = "{getattr(default, name)}"'
-        for name in AREA_ALONE
-        if getattr(options, name) != getattr(default, name)
-    ]
-    if "area_ratio" in e.acts_on and changed:
-        rule = f"changes the contact area and not the load of the asperities; it needs {' and '.join(changed)}"
-        other = '; for asperities that yield, asperities = "chang_etsion_bogy" has the same law with its load'
-        raise InputError(rule + (other if e.id == "asperity_plasticity" else ""), where=f"effects.{e.id}")
-
-
-def _tell_defaults(e: Effect, given: Mapping[str, float | str], values: Mapping[str, float]) -> None:
-    """Report the law that was taken where none is named, and an effect that nothing switches on."""
-    taken, *others = e.laws_within_reach or ("",)
-    if others and LAW not in given and not given.keys() >= e.laws_within_reach[taken].keys():
-        text = f"taken as the law of {taken}; law = NAME chooses {' or '.join(others)}"
-        report(finding("effect_law_assumed", text, f"effects.{e.id}"))
-    switches = {p.name: p.null for p in e.parameters if p.null is not None}
-    if switches and all(values[name] == null for name, null in switches.items()) and not switches.keys() & given.keys():
-        text = f"changes nothing: a value for {' or '.join(switches)} switches it on"
-        report(finding("effect_off", text, f"effects.{e.id}"))

@@ -1,0 +1,75 @@
+"""The effects that a study switches on, with the values of their parameters, checked before anything is computed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from mixedlub import friction
+from mixedlub.chain.effect import Effect
+from mixedlub.chain.model import Parameters, available
+from mixedlub.effects import LAW, find, known_effects, known_in
+from mixedlub.schema.findings import finding, report
+from mixedlub.study.heat import check_exponent
+from mixedlub.study.options import study_chain
+from mixedlub.study.schema import Options, StudyFile
+from profiles.errors import InputError
+
+AREA_ALONE = ("balance", "asperities", "mixture", "heights")
+"""Options at whose defaults an effect on the contact area needs no other change."""
+
+
+def chosen_effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, ...], Parameters]:
+    """The active effects, each parameter at its given value or as its law has it."""
+    _refuse_unread(file, tuple(inputs))
+    for e in find(sorted(file.effects), "effects"):
+        _refuse_ignored(e, file.options)
+    known = known_effects(file.effects, "gear_pair", study_chain(file.options), tuple(inputs), "power_loss")
+    for effect, name in known.sds:
+        raise InputError("a study has no uncertainty; leave it out", where=f"effects.{effect}.{name}_sd")
+    check_exponent(known.values)
+    for e in known.effects:
+        _tell_defaults(e, file.effects[e.id], known.values[e.id])
+    return known.effects, known.values
+
+
+def _refuse_ignored(e: Effect, options: Options) -> None:
+    """Refuse an effect on the contact area alone where asperities carry load by a law that does not know of it."""
+    default = Options()
+    changed = [
+        f'{name} = "{getattr(default, name)}"'
+        for name in AREA_ALONE
+        if getattr(options, name) != getattr(default, name)
+    ]
+    if "area_ratio" in e.acts_on and changed:
+        rule = f"changes the contact area and not the load of the asperities; it needs {' and '.join(changed)}"
+        other = '; for asperities that yield, asperities = "chang_etsion_bogy" has the same law with its load'
+        raise InputError(rule + (other if e.id == "asperity_plasticity" else ""), where=f"effects.{e.id}")
+
+
+def _tell_defaults(e: Effect, given: Mapping[str, float | str], values: Mapping[str, float]) -> None:
+    """Report the law that was taken where none is named, and an effect that nothing switches on."""
+    taken, *others = e.laws_within_reach or ("",)
+    if others and LAW not in given and not given.keys() >= e.laws_within_reach[taken].keys():
+        text = f"taken as the law of {taken}; law = NAME chooses {' or '.join(others)}"
+        report(finding("effect_law_assumed", text, f"effects.{e.id}"))
+    switches = {p.name: p.null for p in e.parameters if p.null is not None}
+    if switches and all(values[name] == null for name, null in switches.items()) and not switches.keys() & given.keys():
+        text = f"changes nothing: a value for {' or '.join(switches)} switches it on"
+        report(finding("effect_off", text, f"effects.{e.id}"))
+
+
+def _refuse_unread(file: StudyFile, given: Sequence[str]) -> None:
+    """Refuse effects on what the friction law does not read."""
+    if file.options.friction == friction.BASE:
+        return
+    base = study_chain(Options())
+    chain = study_chain(file.options)
+    own = known_in("gear_pair")
+    for name in file.effects:
+        reaches = [name in own and available(own[name], c, given, "power_loss", "gear_pair") for c in (base, chain)]
+        if reaches == [True, False]:
+            rule = (
+                f"would change nothing, as friction = {file.options.friction!r} does not read it; leave one of them out"
+            )
+            raise InputError(rule, where=f"effects.{name}")
