@@ -25,16 +25,32 @@ def read_toml(path: Path) -> dict[str, Any]:
     """The content of the file; invalid TOML is an error."""
     try:
         refuse_no_file(path)
-        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        text = path.read_text(encoding="utf-8-sig")
+        return tomllib.loads(text)
     except InputError:
         raise
     except OSError as error:
         raise InputError(f"cannot be read ({error.strerror})", where=str(path)) from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(_unreadable(str(error), text.splitlines()), where=str(path)) from None
+    except (UnicodeDecodeError, RecursionError) as error:
         raise InputError(f"is not readable as TOML ({error})", where=str(path)) from None
     except ValueError:
         # Python refuses to convert integers of thousands of digits.
         raise InputError("holds a whole number with too many digits", where=str(path)) from None
+
+
+def _unreadable(error: str, lines: Sequence[str]) -> str:
+    """What is wrong with a text that is no TOML; a key given twice is named.
+
+    >>> _unreadable("Cannot overwrite a value (at line 2, column 6)", ["a = 1", "a = 2"])
+    "line 2 gives 'a' a second time; give it once"
+    """
+    twice = re.match(r"Cannot overwrite a value \(at line (\d+)", error)
+    if twice is None:
+        return f"is not readable as TOML ({error})"
+    key = lines[int(twice[1]) - 1].partition("=")[0].strip()
+    return f"line {twice[1]} gives {key!r} a second time; give it once"
 
 
 def named_file(folder: Path, name: str, key: str) -> Path:

@@ -297,6 +297,12 @@ def test_an_interrupted_run_resumes(design, run, write_factors, tmp_path, monkey
     pd.testing.assert_frame_equal(resumed, uninterrupted)
 
 
+def test_a_factor_named_twice_is_named(tmp_path, capsys, write_factors):
+    path = write_factors({"face_width_mm": [10, 20]})
+    path.write_text('schema = "mixedlub-factors/1"\nstudy = "trial.toml"\n[factors]\noil = ["a"]\noil = ["b"]\n')
+    assert "line 5 gives 'oil' a second time" in refused(path, capsys, tmp_path)
+
+
 def test_a_resumed_command_says_how_many_runs_are_kept(write_factors, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(factor_parts, "MOST_RUNS", 1)
     path, out = write_factors({"boundary_friction": [0.08, 0.1, 0.12]}, {}), tmp_path / "o"
