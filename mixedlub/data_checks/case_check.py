@@ -48,7 +48,7 @@ def _whole(folder: Path) -> str:
 
 
 def _parts(folder: Path, system: system_file.System) -> str:
-    rig = Rig(system, folder)
+    rig = Rig(system, folder, kind_of(system.kind).unread_of_oil)
     list(rig.parts())
     read_conditions(Case("", folder, system, kind_of(system.kind), rig, None, None, ()), folder / "recordings.csv")
     return ""

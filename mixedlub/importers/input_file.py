@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -18,6 +19,11 @@ from profiles.readers.workbook import Worksheet, is_workbook, longest, worksheet
 BYTE_ORDER_MARKS = (b"\xff\xfe", b"\xfe\xff")
 SAMPLE_LENGTH = 4096
 """Characters from the start of a text that show whether it is one."""
+
+
+NO_TABLES = {"JSON": re.compile(r"\s*(?:\{\s*[\"}]|\[\s*[\[{\"])"), "HTML or XML": re.compile(r"\s*<[!?A-Za-z]")}
+"""How texts begin that hold no table, by the name of their format."""
+READ_FORMS = "text with a header line and a row for each reading (.csv, .txt) and workbooks (.xlsx), each also .gz"
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,6 +59,9 @@ def open_file(path: Path, answers: Answers) -> InputFile:
     text = with_hyphens(decoded(_with_mark(data), path.name))
     if "\0" in text[:SAMPLE_LENGTH]:
         raise InputError("is not a text file or workbook; export it as text first", where=path.name)
+    markup = next((name for name, form in NO_TABLES.items() if form.match(text)), None)
+    if markup is not None:
+        raise InputError(f"is {markup}, which is no table; import reads {READ_FORMS}", where=path.name)
     return InputFile(path.name, text)
 
 

@@ -19,7 +19,7 @@ from mixedlub.schema.units import is_unit, split, words_of
 from profiles.errors import InputError, nearest
 
 SEPARATORS = "\t;,"
-UNIT = r"[(\[][^()\[\]]*[)\]]"
+UNIT = r"[(\[](?:[^()\[\]]|/\s*\([^()\[\]]*\))*[)\]]"
 WORD = re.compile(rf"(?:{UNIT}|\S)+")
 WORD_AND_UNIT = re.compile(rf"(?:\s*{UNIT}|\S)+")
 WORDS = re.compile(r"\S+(?:\s\S+)*")
@@ -78,6 +78,8 @@ VALUES_LISTED = 20
 Cells = Mapping[str, Sequence[str]]
 LINES_SHOWN = 5
 """Lines that a note lists at most."""
+NUMBERS_SHOWN = 3
+"""Numbers in a header that an error lists at most."""
 COUNTED = ("nr", "nr.", "no", "no.", "#", "n", "lfd. nr.", "lfd.nr.")
 """Unit, in small letters, of a column that counts the rows."""
 
@@ -242,8 +244,7 @@ def _table_rows(rows: Sequence[Line], name: str) -> tuple[int, int]:
         if words[i - 1] and numbers[i] and end - i >= best[1] - best[0]:
             best = (i, end)
     if not best[1]:
-        if _numbers(rows[0][1]) == len(rows[0][1]) and _numbers(rows[1][1]):
-            raise InputError("no header: the first line holds numbers only; name the columns above it", where=name)
+        _refuse_numbers_above(rows, name)
         best = (1, len(rows))
     first, last = best
     width = len(rows[first - 1][1])
@@ -252,6 +253,20 @@ def _table_rows(rows: Sequence[Line], name: str) -> tuple[int, int]:
         if len(row) != width:
             raise InputError(_uneven(width), where=f"{name}: line {number}")
     return first, last
+
+
+def _refuse_numbers_above(rows: Sequence[Line], name: str) -> None:
+    """A first line of numbers is no header: the names are missing, or each row and not each column is a quantity."""
+    number, first = rows[0]
+    values = [cell for cell in first if is_number(cell)]
+    if len(values) == len(first) and _numbers(rows[1][1]):
+        turned = "; if they are values of a quantity, turn the table, so that each quantity has one column"
+        raise InputError(f"no header: the first line holds numbers only; name the columns above it{turned}", where=name)
+    if len(values) > 2 and 2 * len(values) > sum(map(bool, first)):
+        shown = ", ".join(values[:NUMBERS_SHOWN])
+        rule = f"the header holds numbers ({shown}, ...), so the table seems to be turned: each quantity, such as the "
+        rule += "temperature, must have one column, with its name in the header, and each reading one row"
+        raise InputError(rule, where=f"{name}: line {number}")
 
 
 def _refuse_other_rows(before: Sequence[Line], after: Sequence[Line], width: int, name: str) -> None:

@@ -37,8 +37,9 @@ class Kind:
     """A kind of recording: its columns, the sections of the system it needs, the chain that predicts readings.
 
     ``subject`` is the test object, one of SUBJECTS. ``readings`` are the columns of which a recording has one, and
-    ``scale`` is the factor from SI to their unit; ``uses`` are optional sections. ``standard`` is the rig on which the
-    catalogue compares effects. ``base_model`` names the laws of the chain for a reader of the answer.
+    ``scale`` is the factor from SI to their unit; ``uses`` are optional sections, ``unread_of_oil`` keys of the oil
+    that change nothing. ``standard`` is the rig on which the catalogue compares effects. ``base_model`` names the laws
+    of the chain for a reader of the answer.
 
     ``inputs(system, rig, table, recorded)`` gives the chain's inputs as arrays of shape (rows, points),
     one of the two of length one where a quantity does not depend on it; the chain ends in ``reading``,
@@ -76,6 +77,7 @@ class Kind:
     column_limits: Callable[[system_file.System], Mapping[str, tuple[float, float]]] = lambda system: {}
     base_inputs: Mapping[str, str] = field(default_factory=dict)
     uses: tuple[str, ...] = ()
+    unread_of_oil: tuple[str, ...] = ()
     scale: float = 1.0
     direction: Callable[[Table], np.ndarray] | None = None
     either: tuple[str, ...] = ()

@@ -78,7 +78,7 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
 def _oil(system: system_file.System, rig: Rig, recorded: Table) -> Lubricant:
     """The oil, with the viscosity level estimated from the readings where it is not given."""
     kelvin = recorded["temperature_C"] + oil.ZERO_CELSIUS
-    return oil_priors.moved(rig.oil(UNREAD), oil_priors.pivot_of(kelvin), _level(system, recorded))
+    return oil_priors.moved(rig.oil(), oil_priors.pivot_of(kelvin), _level(system, recorded))
 
 
 def _pressure(table: Table) -> np.ndarray:
@@ -134,5 +134,6 @@ KIND = Kind(
     logarithmic=True,
     scale=1e3,
     is_logged=True,
+    unread_of_oil=UNREAD,
     standard=STANDARD,
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Hashable, Iterator
+from collections.abc import Callable, Hashable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
@@ -23,11 +23,13 @@ Part = TypeVar("Part")
 class Rig:
     """Gears, load sharing, oil and surfaces of a file; what a part needs is read from ``folder`` when it is first used.
 
-    Every use of a part reports what was assumed for it, as the first one did.
+    Every use of a part reports what was assumed for it, as the first one did; nothing is reported of keys of the oil
+    that the kind of recording leaves ``unread_of_oil``.
     """
 
     file: RigFile
     folder: Path
+    unread_of_oil: tuple[str, ...] = ()
     _built: dict[Hashable, tuple[Any, list[Finding]]] = field(default_factory=dict, repr=False)
 
     @property
@@ -50,9 +52,9 @@ class Rig:
             ("mesh", points, slices), lambda: mesh(self.gears, self.sharing, points=points, slices=slices)
         )
 
-    def oil(self, unread: Collection[str] = ()) -> Lubricant:
-        """The lubricant; nothing is reported of keys that are ``unread`` in a kind of recording."""
-        return self._once(("oil", *unread), lambda: build.lubricant(self.file.lubricant, unread, self.folder))
+    def oil(self) -> Lubricant:
+        """The lubricant."""
+        return self._once("oil", lambda: build.lubricant(self.file.lubricant, self.unread_of_oil, self.folder))
 
     def trace(self, name: str) -> Profile:
         """The measured trace of a surface, the first of several, as its file has it."""

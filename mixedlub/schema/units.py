@@ -57,7 +57,8 @@ rpm      | rpm      | rpm, 1/min=rpm, r/min=rpm, U/min=rpm, rev/min, rad/s, deg/
 Nm       | N m      | N.m, mN.m, N.mm, N.cm, kN.m, lbf.ft, lb.ft=lbf.ft, ft.lbf, ft.lb=lbf.ft, lbf.in, lb.in=lbf.in, \
 in.lbf, in.lb=lbf.in
 nm       | nm       | nm, um                                                      | um
-mPa_s    | mPa s    | mPa.s, cP, Pa.s                                             | uPa.s
+mPa_s    | mPa s    | mPa.s, cP, Pa.s, P, mN.s/m2, N.s/m2, N.s.m-2=N.s/m2, kg/(m.s), kg/m/s=kg/(m.s), \
+kg.m-1/s=kg/(m.s), g/(cm.s), g/cm/s=g/(cm.s) | uPa.s
 MPa      | MPa      | MPa, Pa, kPa, GPa, bar, atm, psi                            | Pa, kPa, GPa
 s        | s        | s, min, h
 m        | m        | m, mm, km
@@ -68,7 +69,7 @@ ratio    |          | -, 1, %                                                   
 percent  | %        | %, -, 1
 GPa      | GPa      |                                                             | Pa, MPa, TPa
 per_GPa  | 1/GPa    |                                                             | 1/Pa, 1/MPa
-mm2_s    | mm²/s    |                                                             | m2/s, cm2/s
+mm2_s    | mm²/s    | mm2/s, cSt=mm2/s, m2/s, cm2/s, St=cm2/s                     | m2/s, cm2/s
 mm       | mm       |                                                             | m, um
 um       | µm       |                                                             | m, mm, nm
 um2      | µm²      |                                                             | m2, mm2, nm2
@@ -228,8 +229,10 @@ def split(header: str) -> tuple[str, str | None]:
 
     >>> split("Rolling Speed (mm/s)"), split("temperature_degC"), split("Load")
     (('rolling speed', 'mm/s'), ('temperature', '°C'), ('load', None))
+    >>> split("Dynamic viscosity [kg/(m s)]")
+    ('dynamic viscosity', 'kg/(m s)')
     """
-    found = re.fullmatch(r"\s*(.*?)\s*[(\[]\s*([^()\[\]]*?)\s*[)\]]\s*", header)
+    found = re.fullmatch(r"\s*(.*?)\s*[(\[]\s*((?:[^()\[\]]|/\s*\([^()\[\]]*\))*?)\s*[)\]]\s*", header)
     plain = header.strip()
     words, unit = (found.group(1), found.group(2)) if found else (without_unit(plain), unit_of(plain) or None)
     return re.sub(r"[\s_]+", " ", words).strip().lower(), unit or None
