@@ -10,6 +10,7 @@ from mixedlub.case.overloaded import overloaded_asperities
 from mixedlub.data_checks.included import unmodelled_losses
 from mixedlub.data_checks.misread import NEGATIVE_SIGMAS, misread, sds
 from mixedlub.data_checks.mixed_units import of_odd_units, teeth_too_hard_pressed
+from mixedlub.data_checks.placeholders import placeholders
 from mixedlub.data_checks.sign_checks import both_signs, of_other_sign
 from mixedlub.kinds.kind import gears_out
 from mixedlub.recording.conditions import PASSING, raw_coordinates
@@ -91,6 +92,7 @@ def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> 
         *_beyond_the_oil(case, rows),
         *_backwards(rows),
         *_stuck(case, rows, y, base),
+        *placeholders(case.quantity, rows, y, base),
         *misread(case, rows, y, forward, other_sign),
         *both_signs(case, rows, y, other_sign),
         *_contradicting(case, rows, y, base),

@@ -36,6 +36,16 @@ def test_an_unnamed_oil_is_told_with_its_broad_priors(tmp_path, capsys):
     assert "fitted with broad priors" in said.replace("\n", " ")
 
 
+def test_a_viscosity_case_tells_once_what_is_typical_of_the_oil_and_only_what_it_reads(tmp_path, capsys):
+    system = {"kind": "viscosity", "lubricant": {"density_15C_kg_m3": 972.0}}
+    system["recording"] = {"quantity": "viscosity_mPa_s", "noise": {"relative": 0.01}}
+    columns = {"temperature_C": [20.0, 30.0, 40.0, 60.0, 80.0], "viscosity_mPa_s": [78.0, 45.0, 28.0, 13.4, 7.6]}
+    said = understood(tmp_path, capsys, system, columns)
+    (line,) = [line for line in said.splitlines() if "taken as typical of base" in line]
+    assert "density_change_per_K = 0.00065" in line
+    assert not any(key in line for key in ("eyring_stress", "thermal_conductivity", "specific_heat"))
+
+
 def test_a_friction_map_names_its_unknown_torques_and_its_own_noise(tmp_path, capsys):
     speed = np.array([-10.0, -5.0, 5.0, 10.0])
     columns = {

@@ -80,6 +80,26 @@ def test_a_value_in_a_fifth_of_the_rows_is_named_with_its_runs(case: Case) -> No
     assert "(runs 1, 2, 3, 4, 5 and 10 more)" in note.text
 
 
+def test_readings_of_exactly_zero_among_others_far_from_it_are_named_with_their_runs(case: Case) -> None:
+    (note,) = told(case, first(2, 0.0))
+    assert (note.code, note.place) == ("readings_zero", "friction_coefficient")
+    assert note.text.startswith("2 of 72 readings are exactly zero where the others are 0.0")
+    assert "(runs 1, 2)" in note.text
+    assert told(case, first(2, 1e-4)) == []
+
+
+@pytest.mark.parametrize(
+    "near_zero",
+    [
+        pytest.param(lambda y: y * np.linspace(0.0, 1.0, y.size), id="readings that grow from zero"),
+        pytest.param(lambda y: np.round(y * 20.0) / 20.0, id="steps as large as the readings"),
+    ],
+)
+def test_zeros_that_other_readings_come_near_are_not_placeholders(case: Case, near_zero: Change) -> None:
+    found = told(case, lambda y: np.where(np.arange(y.size) < 1, 0.0, near_zero(y)))
+    assert "readings_zero" not in codes(found)
+
+
 def test_a_value_in_fewer_rows_is_not(case: Case) -> None:
     assert told(case, first(14)) == []
 
@@ -165,7 +185,7 @@ def test_a_wrong_reading_among_many_at_few_conditions_is_found(case: Case) -> No
     assert (found.code, found.place) == ("reading_too_large", "run 15001")
 
 
-@pytest.mark.parametrize("factor", [0.0, 0.3, 3.0, 8.0])
+@pytest.mark.parametrize("factor", [0.1, 0.3, 3.0, 8.0])
 def test_a_misshapen_outlier_is_no_slip(case: Case, factor: float) -> None:
     assert told(case, one(7, lambda y: factor * y)) == []
 
