@@ -183,7 +183,9 @@ def _checked(
         _report_missing_check(system.recording.check, recordings)
         conditions = table("conditions", _columns(found, system, False))
         conditions = None if conditions is None else _with_filled_sds(conditions, f"{quantity}_sd")
-    return Case(name, folder, system, found, Rig(system, folder, found.unread_of_oil), recordings, conditions, tuple(notes))
+    return Case(
+        name, folder, system, found, Rig(system, folder, found.unread_of_oil), recordings, conditions, tuple(notes)
+    )
 
 
 def read_conditions(case: Case, path: Path) -> Table:

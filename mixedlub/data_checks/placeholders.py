@@ -39,10 +39,11 @@ placeholder, of a channel that was not on or a cell filled in; delete its row (r
     step = float(np.min(np.diff(np.unique(np.abs(y)))))
     if near < max(FAR * float(np.median(others)), STEPS * step):
         return []
-    one = count == 1
+    one, several = ("is", "a placeholder", "its row (run"), ("are", "placeholders", "their rows (runs")
+    are, likely, its = one if count == 1 else several
+    runs = listed(rows["run"][zero].tolist(), RUNS_SHOWN)
     text = (
-        f"{count} of {y.size} readings {'is' if one else 'are'} exactly zero where the others are {near:.3g} or more in "
-        f"size: likely {'a placeholder' if one else 'placeholders'}, of a channel that was not on or a cell filled in; "
-        f"delete {'its row (run' if one else 'their rows (runs'} {listed(rows['run'][zero].tolist(), RUNS_SHOWN)})"
+        f"{count} of {y.size} readings {are} exactly zero where the others are {near:.3g} or more in size: "
+        f"likely {likely}, of a channel that was not on or a cell filled in; delete {its} {runs})"
     )
     return [finding("readings_zero", text, quantity)]

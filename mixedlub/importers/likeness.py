@@ -287,6 +287,31 @@ def spare_headers(columns: Iterable[Column], cells: Cells) -> dict[str, str]:
     return headers
 
 
+OTHER_QUANTITIES = {"force", "power", "work", "energy", "heat"}
+"""Words of quantities that are no column of a case."""
+
+
+def rivals(column: str, taken: str, cells: Cells) -> list[str]:
+    """Other headers that may hold a column as well as the one taken, with other numbers in them.
+
+    >>> cells = {"COF": ["0.1"], "COF effective": ["0.2"], "Friction integral": ["0.2"], "Friction force": ["1"]}
+    >>> rivals("friction_coefficient", "COF", cells), rivals("load_N", "Load (N)", {"Load (N)": ["1"], "Tick": ["1"]})
+    (['COF effective', 'Friction integral'], [])
+    """
+    target = BY_NAME[column]
+    foreign = OTHER_QUANTITIES.union(*(t.spoken for t in BY_NAME.values() if t is not target))
+    foreign -= {word for spoken in target.spoken for word in spoken.split()}
+    others = [h for h in cells if h != taken and list(cells[h]) != list(cells[taken])]
+    alike = [h for h in others if target_of(h) in (None, target) and not foreign & set(words_of(h).split())]
+    return [h for h in alike if likeness(column, h, cells[h]) >= LEAST_LIKENESS]
+
+
+def rival_note(column: str, taken: str, others: Sequence[str]) -> str:
+    """A note on the headers that may be meant instead of the one taken, with the setting that takes each."""
+    settings = (f"{h!r}: --set {shlex.quote(f'{COLUMNS}{column}={toml_value(h)}')}" for h in others)
+    return f"{taken!r} is taken as {column}; if another is meant, {', or '.join(settings)}"
+
+
 def spare_questions(spare: Mapping[str, str]) -> list[Question]:
     """Optional questions: whether to take these headers."""
     text = "is used where it is recorded: header of its column"

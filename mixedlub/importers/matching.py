@@ -24,6 +24,8 @@ from mixedlub.importers.likeness import (
     likely_headers,
     likely_spread,
     likeness,
+    rival_note,
+    rivals,
     spare_headers,
     spare_notes,
     spare_questions,
@@ -128,9 +130,21 @@ def match(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> Match:
     units, questions, notes = taken_units(matched.headers, answers)
     ordered = {c.name: matched.headers[c.name] for c in columns if c.name in matched.headers}
     questions += pace_questions(matched.headers, units, answers)
-    warned = tuple(spare_notes(spare))
+    left = {h: v for h, v in _offered(filled, matched.headers).items() if h not in spare.values()}
+    warned = (*spare_notes(spare), *_rivals(quantity, named, matched.headers, cells, left))
     every = tuple(_explained(q, kind) for q in (*matched.questions, *questions))
     return Match(ordered, units, every, (*matched.notes, *notes), warned)
+
+
+def _rivals(
+    quantity: str, named: Mapping[str, str], headers: Mapping[str, str], cells: Cells, left: Cells
+) -> tuple[str, ...]:
+    """A note on headers that may hold the reading, where no answer and no column's own name decides."""
+    header = headers.get(quantity)
+    if header is None or quantity in named or is_named(header, quantity):
+        return ()
+    others = rivals(quantity, header, {header: cells[header], **left})
+    return (rival_note(quantity, header, others),) if others else ()
 
 
 def _explained(question: Question, kind: Kind) -> Question:

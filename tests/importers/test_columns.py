@@ -325,3 +325,22 @@ def test_the_torque_that_loads_a_drive_is_not_offered_as_its_friction(loss, tabl
     main(["import", "t.csv", "--out", "rig", *settings])
     said = capsys.readouterr().err
     assert 'friction_torque_Nm="Input Torque' not in said
+
+
+def test_other_columns_that_may_hold_the_reading_are_told_with_the_setting_that_takes_each(table, capsys):
+    path = table(
+        "Time (s),Friction COF effective value,Friction absolute integral,COF,Friction force,COF hysteresis (1/µm)\n"
+        + "".join(f"{i},0.12{i},0.11{i},0.16{i},2{i},0.01{i}\n" for i in range(9))
+    )
+    told = ["import", str(path), "--set", "kind=friction_history", "--set", "import.units.friction_coefficient=-"]
+    assert main([*told, "--out", "one"]) == 0
+    (line,) = [line for line in "".join(capsys.readouterr()).splitlines() if "if another is meant" in line]
+    assert line == (
+        "caution: t.csv: 'COF' is taken as friction_coefficient; if another is meant, "
+        "'Friction COF effective value': --set 'import.columns.friction_coefficient=\"Friction COF effective value\"', "
+        "or 'Friction absolute integral': --set 'import.columns.friction_coefficient=\"Friction absolute integral\"'"
+    )
+    setting = shlex.split(line)[-1]
+    assert main([*told, "--set", setting, "--out", "two"]) == 0
+    assert "if another is meant" not in "".join(capsys.readouterr())
+    assert read_case(table("", "x").parent / "two").recordings["friction_coefficient"][1] == 0.111
