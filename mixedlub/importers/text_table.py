@@ -14,8 +14,9 @@ import numpy as np
 
 from mixedlub.importers.base import Answers
 from mixedlub.importers.decimals import Line, common_length, is_written_number, with_points
+from mixedlub.importers.header import header_of
 from mixedlub.schema.table import LARGEST, are_numbers, is_missing, is_number
-from mixedlub.schema.units import is_unit, split, words_of
+from mixedlub.schema.units import words_of
 from profiles.errors import InputError, nearest
 
 SEPARATORS = "\t;,"
@@ -80,8 +81,6 @@ LINES_SHOWN = 5
 """Lines that a note lists at most."""
 NUMBERS_SHOWN = 3
 """Numbers in a header that an error lists at most."""
-COUNTED = ("nr", "nr.", "no", "no.", "#", "n", "lfd. nr.", "lfd.nr.")
-"""Unit, in small letters, of a column that counts the rows."""
 
 
 class TextColumn(list[str]):
@@ -125,14 +124,10 @@ def read_sheet(text: str, name: str, decimal: str | None = None) -> Sheet:
         raise InputError("needs a header line and at least one row", where=name)
     rows, notes = with_points(rows, name, decimal)
     first, last = _table_rows(rows, name)
-    above = first - 1
-    header = rows[above][1]
-    if above and _are_units(header, rows[above - 1][1]):
-        above -= 1
-        units = [unit.strip("()[]") for unit in header]
-        header = [f"{word} ({unit})" if unit else word for word, unit in zip(rows[above][1], units, strict=True)]
+    header, n_lines = header_of([row for _, row in rows[:first]])
+    above = first - n_lines
     table = rows[first:last]
-    cells = {h: TextColumn(row[i] for _, row in table) for i, h in enumerate(_unique(header)) if h}
+    cells = {h: TextColumn(row[i] for _, row in table) for i, h in enumerate(header) if h}
     parts = [part for part in (_range(rows[:above]), _range(rows[last:])) if part]
     return Sheet(name, cells, tuple(number for number, _ in table), " and ".join(parts), tuple(notes))
 
@@ -287,38 +282,6 @@ def _uneven(width: int) -> str:
 
 def _numbers(cells: Sequence[str]) -> int:
     return sum(is_number(cell) for cell in cells)
-
-
-def _are_units(cells: Sequence[str], words: Sequence[str]) -> bool:
-    """Whether a line holds the units of the words above it, at least one known; one cell may count the rows.
-
-    An unknown unit is in brackets, or among twice as many known ones below a line that names every column.
-    """
-    if len(cells) != len(words):
-        return False
-    named = [cell for cell in cells if cell and cell.lower() not in COUNTED]
-    known = sum(is_unit(cell.strip("()[]")) for cell in named)
-    new = sum(not is_unit(cell.strip("()[]")) and not _in_brackets(cell) for cell in named)
-    every = all(word and not is_unit(word) for word, cell in zip(words, cells, strict=True) if cell)
-    return known > 2 * new and (every or new == 0)
-
-
-def _in_brackets(cell: str) -> bool:
-    return (cell[0], cell[-1]) in (("(", ")"), ("[", "]"))
-
-
-def _unique(header: Sequence[str]) -> list[str]:
-    """Headers with a number added to each repetition."""
-    seen: dict[str, int] = {}
-    unique = []
-    for h in header:
-        seen[h] = seen.get(h, 0) + 1
-        words, unit = split(h)
-        distinct = h if seen[h] == 1 else f"{words} #{seen[h]}" + (f" ({unit})" if unit else "")
-        while h and distinct in unique:
-            distinct = f"{distinct} #{seen[h]}"
-        unique.append(distinct)
-    return unique
 
 
 def _range(rows: Sequence[Line]) -> str:

@@ -10,7 +10,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mixedlub.importers.base import Answers, Question, read_note
-from mixedlub.importers.text_table import COUNTED, Cells, Sheet, is_numeric, places
+from mixedlub.importers.header import COUNTED
+from mixedlub.importers.text_table import Cells, Sheet, is_numeric, places
 from mixedlub.importers.vocabulary import BY_NAME, Target
 from mixedlub.schema.dates import ORDERS, moments, resolution
 from mixedlub.schema.findings import Finding, finding

@@ -122,3 +122,24 @@ def test_what_is_no_text_is_refused(data, tmp_path):
     (tmp_path / "t.dat").write_bytes(data)
     with pytest.raises(InputError, match="is not a text file or workbook"):
         open_file(tmp_path / "t.dat", {})
+
+
+@pytest.mark.parametrize(
+    ("text", "form"),
+    [
+        ('{\n  "oil": "A",\n  "temperature_C": [20, 40]\n}\n', "JSON"),
+        ('[{"temperature_C": 20, "viscosity_mPa_s": 90}]', "JSON"),
+        ("<!DOCTYPE html>\n<html><body>20,90</body></html>\n", "HTML or XML"),
+    ],
+)
+def test_a_format_without_a_table_is_named_with_those_that_are_read(text, form, tmp_path):
+    (tmp_path / "oil.json").write_text(text)
+    with pytest.raises(InputError) as caught:
+        open_file(tmp_path / "oil.json", {})
+    assert str(caught.value).startswith(f"oil.json: is {form}, which is no table; import reads text with a header line")
+    assert ".csv, .txt" in str(caught.value)
+
+
+def test_a_header_may_begin_with_a_bracket(tmp_path):
+    (tmp_path / "t.csv").write_text("[1] temperature_C,viscosity_mPa_s\n20,90\n")
+    assert open_file(tmp_path / "t.csv", {}).table().lines == (2,)

@@ -56,6 +56,44 @@ def test_a_line_of_units_belongs_to_the_header():
     assert np.allclose(found["friction_torque_Nm"], [0.25, 0.26])
 
 
+CHANNELS = """Timestamp,2020-01-02 10:00:00,Timestamp,2020-01-02 10:00:00
+Interval,0.5,Interval,0.5
+Channel name,"Friction coefficient",Channel name,"Strain gauge"
+Unit,"-",Unit,"V"
+0,0.11,0,3.1
+0.5,0.12,0.5,3.2
+1.0,0.11,1.0,3.1
+"""
+
+
+def test_channels_with_lines_of_names_and_units_are_read():
+    told = {"kind": "friction_history", "import.units.time_s": "s"}
+    found = draft(InputFile("scope.csv", CHANNELS), told)
+    assert set(read_sheet(CHANNELS, "scope.csv").cells) == {
+        "Time",
+        "Friction coefficient (-)",
+        "time #2",
+        "Strain gauge (V)",
+    }
+    assert found.columns["time_s"].tolist() == [0.0, 0.5, 1.0]
+    assert found.columns["friction_coefficient"].tolist() == [0.11, 0.12, 0.11]
+
+
+@pytest.mark.parametrize("first", ["Oil,20,40,60", "Oil,Sort,0,20,40,60,Source"])
+def test_a_table_whose_header_holds_numbers_seems_to_be_turned(first):
+    width = first.count(",")
+    text = f"{first}\nA{',' * (width - 2)},9,1\nB{',' * (width - 2)},8,2\n"
+    with pytest.raises(InputError) as caught:
+        read_sheet(text, "wide.csv")
+    assert caught.value.where == "wide.csv: line 1"
+    assert "seems to be turned: each quantity, such as the temperature, must have one column" in str(caught.value)
+
+
+def test_two_lines_of_numbers_may_be_a_turned_table():
+    with pytest.raises(InputError, match="if they are values of a quantity, turn the table"):
+        read_sheet("0,20,40\n90,30,12\n", "wide.csv")
+
+
 def test_a_row_of_another_length_amid_rows_is_an_error():
     text = "time_s,friction_coefficient\n1,0.1\n2,0.1,3\n3,0.1\n4,0.1\n"
     with pytest.raises(InputError, match=r"t\.csv: line 3: has not as many cells as the header \(2\)"):

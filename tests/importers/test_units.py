@@ -109,3 +109,21 @@ def test_one_over_a_second_is_asked_about(unit, words):
 def test_one_over_a_second_that_is_told_is_refused_with_what_it_may_mean():
     with pytest.raises(InputError, match=r"'1/s': as unit of speed_rpm leaves open .* say rev/s or rad/s"):
         draft(InputFile("t.csv", drive("speed")), {**DRIVE, "import.units.speed_rpm": "1/s"})
+
+
+@pytest.mark.parametrize(
+    ("unit", "factor"),
+    [
+        *(
+            (unit, 1e3)
+            for unit in ("kg/(m s)", "kg/(m·s)", "kg/m/s", "kg m⁻¹ s⁻¹", "N s/m2", "N·s/m²", "N s m^-2", "Pa·s")
+        ),
+        *(("mN s/m²", 1.0), ("P", 100.0), ("g/(cm s)", 100.0)),
+    ],
+)
+@pytest.mark.parametrize("brackets", ["()", "[]"])
+def test_dynamic_viscosity_is_read_in_every_spelling_of_its_units(unit, factor, brackets):
+    text = f"Temperature [°C],Dynamic viscosity {brackets[0]}{unit}{brackets[1]}\n20,0.09\n40,0.03\n"
+    found = draft(InputFile("t.csv", text), {"kind": "viscosity"})
+    assert [q.key for q in found.questions if q.needed] == []
+    assert found.columns["viscosity_mPa_s"].tolist() == pytest.approx([0.09 * factor, 0.03 * factor], rel=1e-12)
