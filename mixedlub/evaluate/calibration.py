@@ -155,9 +155,9 @@ def run(file: CalibrationFile, path: Path) -> Evaluated:
     """The coefficients, calculated over measured friction, and a law for each surface."""
     table = read_table(named_file(path.parent, file.readings, "readings"), COLUMNS)
     _checked(file, table)
-    rig = Rig(file, path.parent)
+    rig = Rig(file, path.parent, BEYOND_VISCOSITY)
     with collected() as findings:
-        pair, shared, oil, roughness = rig.gears, rig.sharing, rig.oil(BEYOND_VISCOSITY), _roughness(rig, table)
+        pair, shared, oil, roughness = rig.gears, rig.sharing, rig.oil(), _roughness(rig, table)
     warm = table["bulk_temperature_C"] if "bulk_temperature_C" in table else table["oil_temperature_C"]
     kelvin = warm + ZERO_CELSIUS
     nu = oil.viscosity(kelvin) / oil.density(kelvin)

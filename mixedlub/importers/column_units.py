@@ -16,6 +16,8 @@ from profiles.errors import InputError
 
 OF_READINGS = ("mean", "average", "avg", "median", "value", "measured", "nominal", "actual", "set")
 """Last words of a header that are no unit."""
+FORCE = re.compile(r"force|kraft|kräfte")
+"""Words of a friction that is a force."""
 COUNTS = ("fringe_order",)
 """Columns without a unit."""
 
@@ -93,6 +95,9 @@ def unit_question(column: str, header: str, target: Target) -> Question:
     if candidates:
         return Question(UNIT_KEYS + column, f"{text}, whose header is ambiguous", UNKNOWN_UNIT, options=candidates)
     units = units_of(target.unit)
+    if column == "friction_coefficient" and FORCE.search(words_of(header)):
+        text += "; of a force, with the unit of the load, force over load is taken"
+        units = (*units, *units_of("N"))
     if column == TIME:
         first = counted(header)
         units = tuple(u for f in sorted((target.unit, *PACES), key=lambda f: f != first) for u in units_of(f))

@@ -29,6 +29,7 @@ from mixedlub.importers.text_table import (
     selected_rows,
 )
 from mixedlub.importers.time_base import DATES, PACE_KEYS, TIME, continued, date_order, in_seconds, target_in
+from mixedlub.importers.two_forces import COEFFICIENT, over_load
 from mixedlub.importers.vocabulary import convert
 from mixedlub.kinds import KINDS, Kind
 from mixedlub.kinds import kind as kind_of
@@ -54,7 +55,8 @@ def draft(file: InputFile, answers: Answers) -> Draft:
     _refuse_unknown(kind, answers)
     name = file.name
     sheet, selection_notes = selected_rows(file.table(_decimal(answers)), answers)
-    likely = kind_of(kind or likely_kind(sheet.cells))
+    with_ratio, left_to_answer, ratio_note = over_load(sheet, answers)
+    likely = kind_of(kind or likely_kind(with_ratio.cells))
     if kind is not None and quantity is not None and quantity not in likely.quantities:
         rule = f"a case of kind {kind!r} records {' or '.join(likely.quantities)}"
         raise InputError(rule, where="recording.quantity", value=quantity)
@@ -62,11 +64,13 @@ def draft(file: InputFile, answers: Answers) -> Draft:
     if kind is None:
         questions.append(Question("kind", "Kind of recording", toml_value(likely.name), options=KINDS, offered=True))
     if quantity is None:
-        quantity = _likely_quantity(likely, sheet.cells)
+        quantity = _likely_quantity(likely, with_ratio.cells)
         if len(likely.quantities) > 1:
             example = toml_value(quantity)
             among = likely.quantities
             questions.append(Question("recording.quantity", "Recorded quantity", example, options=among, offered=True))
+    if quantity == COEFFICIENT and ratio_note:
+        sheet, answers, selection_notes = with_ratio, left_to_answer, [*selection_notes, ratio_note]
     matched = match(likely, str(quantity), sheet.cells, answers)
     further = (*matched.questions, *contact_form(likely.name, answers), *questions_of(likely.name))
     if questions:

@@ -8,7 +8,7 @@ LOAD = Column(
     "load_N",
     above=0.0,
     meaning="normal load",
-    words=("load", "ball load", "pin load", "normal load", "normal force"),
+    words=("load", "ball load", "pin load", "normal load", "normal force", "normal"),
     hints=("fn", "fz"),
 )
 ENTRAINMENT_SPEED = Column(

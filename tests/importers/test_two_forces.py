@@ -1,0 +1,84 @@
+"""A friction force beside the load: their ratio is the friction coefficient, and that is said."""
+
+import pytest
+
+from mixedlub.importers.input_file import InputFile
+from mixedlub.importers.plain import draft
+from profiles.errors import InputError
+
+HISTORY = {"kind": "friction_history"}
+ROWS = "0,1.0,10\n1,1.2,10\n2,-1.1,11\n"
+
+
+def read(header, answers=HISTORY, rows=ROWS):
+    return draft(InputFile("t.csv", f"{header}\n{rows}"), answers)
+
+
+def said(found):
+    return " ".join(map(str, found.notes))
+
+
+@pytest.mark.parametrize(
+    ("header", "factor"),
+    [
+        ("Time [s],Friction force [N],Normal load [N]", 1.0),
+        ("Time [s],Friction [mN],Normal [mN]", 1.0),
+        ("Time [s],Reibkraft [N],Normal force [kN]", 1e-3),
+        ("Time [s],Tangential force [N],load_N", 1.0),
+    ],
+)
+def test_force_over_load_is_taken_and_said(header, factor):
+    found = read(header)
+    assert [q.key for q in found.questions if q.needed] == []
+    assert found.columns["friction_coefficient"].tolist() == pytest.approx([0.1 * factor, 0.12 * factor, -0.1 * factor])
+    _, friction, load = header.split(",")
+    assert f"friction_coefficient is {friction!r} over {load!r}" in said(found)
+    assert "3 of 3 columns taken: time_s, load_N, friction_coefficient" in said(found)
+    assert "not taken" not in said(found)
+
+
+def test_the_kind_of_forces_in_time_is_offered():
+    asked = {q.key: q.example for q in read("Time [s],Friction [N],Normal [N]", {}).questions if q.needed}
+    assert asked == {"kind": '"friction_history"'}
+
+
+def test_a_recorded_coefficient_is_taken_before_two_forces():
+    found = read("Time [s],Friction force [N],Load [N],COF [-]", rows="0,1.0,10,0.2\n1,1.2,10,0.3\n")
+    assert found.columns["friction_coefficient"].tolist() == [0.2, 0.3]
+    assert "not taken: Friction force [N]" in said(found)
+
+
+def test_the_load_may_be_one_value_for_all_rows():
+    found = read("Time [s],Friction force [mN]", {**HISTORY, "import.values.load_N": 2.0}, "0,100\n1,200\n")
+    assert found.columns["friction_coefficient"].tolist() == pytest.approx([0.05, 0.1])
+    assert "friction_coefficient is 'Friction force [mN]' over the load of 2 N" in said(found)
+
+
+@pytest.mark.parametrize("load", ["0", "-0.2"])
+def test_rows_without_load_have_no_coefficient_and_are_left_out(load):
+    found = read("Time [s],Friction force [N],Load [N]", rows=f"0,1,10\n1,1,{load}\n2,3,10\n")
+    assert found.columns["friction_coefficient"].tolist() == pytest.approx([0.1, 0.3])
+    assert "1 row left out, as 'friction_coefficient' is missing: line 3" in said(found)
+
+
+def test_loads_that_are_all_negative_are_refused():
+    with pytest.raises(InputError, match=r"line 2, Load \[N\]: -10.*load_N must be above 0"):
+        read("Time [s],Friction force [N],Load [N]", rows="0,1,-10\n1,1,-10\n")
+
+
+def test_of_several_friction_forces_one_is_asked_for():
+    header = "Time [s],Friction force left [N],Friction force right [N],Load [N]"
+    rows = "0,1,2,10\n1,1.2,2.2,10\n"
+    assert "import.columns.friction_coefficient" in {q.key for q in read(header, rows=rows).questions if q.needed}
+    told = {**HISTORY, "import.columns.friction_coefficient": "Friction force right [N]"}
+    assert read(header, told, rows).columns["friction_coefficient"].tolist() == pytest.approx([0.2, 0.22])
+
+
+def test_forces_without_units_are_asked_for_them():
+    header = "Time [s],Friction force,Load"
+    questions = {q.key: q for q in read(header).questions if q.needed}
+    asked = questions["import.units.friction_coefficient"]
+    assert "of a force, with the unit of the load, force over load is taken" in asked.text
+    assert "N" in asked.options
+    told = {**HISTORY, "import.units.friction_coefficient": "N", "import.units.load_N": "N"}
+    assert read(header, told).columns["friction_coefficient"].tolist() == pytest.approx([0.1, 0.12, -0.1])
