@@ -11,7 +11,7 @@ from mixedlub.importers.answer_keys import COLUMNS
 from mixedlub.importers.base import Question
 from mixedlub.importers.text_table import Cells, is_numeric
 from mixedlub.importers.time_base import TIME, counted
-from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, WEIGHED, target_of
+from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, WEIGHED, family, is_kinematic, target_of
 from mixedlub.kinds import KINDS
 from mixedlub.kinds import kind as kind_of
 from mixedlub.schema.dates import is_dated
@@ -174,7 +174,7 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
     if (
         spread_of(header) is not None
         or is_logarithm(header)
-        or (column == "viscosity_mPa_s" and "kinematic" in words.split())
+        or (column == "viscosity_mPa_s" and "kinematic" in words.split() and not is_kinematic(unit))
     ):
         return 0.0
     if _is_derived(column, words) or NO_READING.get(column, set()) & set(words.split()):
@@ -190,7 +190,7 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
     target = BY_NAME.get(column)
     if target is None:
         return _overlap(words, column.replace("_", " "))
-    unit_fits = unit is not None and fits(unit, target.unit)
+    unit_fits = unit is not None and fits(unit, family(target, unit))
     if unit is not None and not unit_fits:
         return 0.0
     overlap = max(_overlap(words, spoken) for spoken in (split(column)[0], *target.spoken, *target.offered))

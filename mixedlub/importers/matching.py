@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -17,6 +18,7 @@ from mixedlub.importers.column_units import (
     target_for,
     unit_question,
 )
+from mixedlub.importers.kinematic import VISCOSITY
 from mixedlub.importers.likeness import (
     either,
     is_empty,
@@ -42,7 +44,7 @@ from mixedlub.importers.time_base import (
     pace_questions,
     target_in,
 )
-from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, is_of_another, target_of
+from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, is_kinematic, is_of_another, target_of
 from mixedlub.kinds import Kind
 from mixedlub.schema.table import BOOKKEEPING, Column, check_column, sd_column
 from mixedlub.schema.toml_file import toml_value
@@ -168,7 +170,8 @@ def _named_header(column: str, cells: Cells, answers: Answers) -> str:
         raise InputError(rule, where=where, value=header)
     if is_logarithm(header):
         raise InputError("is a logarithm; add a column of the quantity itself", where=where, value=header)
-    if column.startswith("viscosity_mPa_s") and "kinematic" in words_of(header).split():
+    unit = answers.get(UNIT_KEYS + column, split(header)[1])
+    if column.startswith(VISCOSITY) and "kinematic" in words_of(header).split() and not is_kinematic(unit):
         rule = "is a kinematic viscosity; add a column of it times the density: mm²/s times g/cm³ is mPa s"
         raise InputError(rule, where=where, value=header)
     return header
@@ -186,6 +189,7 @@ def _find_header(column: Column, cells: Cells, matched: _Matched) -> None:
         # A time of day, or a column of remarks, may have the words of a number.
         numeric = [h for h in spoken if is_numeric(cells[h])]
         spoken = sorted(numeric or spoken, key=lambda h: order.get(words_of(h), -1))
+    spoken = [h for h in spoken if not is_kinematic(split(h)[1])] or spoken
     if not spoken:
         return
     differing = [h for h in spoken if (split(h)[1], cells[h]) != (split(spoken[0])[1], cells[spoken[0]])]
@@ -224,8 +228,11 @@ def _speaks_of(header: str, column: str) -> bool:
 
     >>> [_speaks_of(h, "friction_coefficient") for h in ("mu", "mu [%]", "mu [mPa s]", "mu [cSt]", "mu [Vs]")]
     [True, True, False, False, True]
+    >>> [_speaks_of(h, "viscosity_mPa_s") for h in ("Kinematic viscosity [cSt]", "kinematic_viscosity_mm2_s")]
+    [True, True]
     """
-    target, unit = target_of(header), split(header)[1]
+    unit = split(header)[1]
+    target = target_of(re.sub(r"kinematic[\s_]+", "", header, flags=re.IGNORECASE) if is_kinematic(unit) else header)
     if target is None or target.name != column:
         return False
     return unit is None or fits(unit, target_in(target, unit).unit) or not is_of_another(unit, target)

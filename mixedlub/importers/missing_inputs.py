@@ -73,7 +73,8 @@ def gaps(system: system_file.System, columns: Mapping[str, np.ndarray]) -> tuple
     if "viscosity" in reads and "lubricant" not in sections:
         sections.append("lubricant")
     for section in sections:
-        every.append(_gap(section, section, getattr(system, section), section in rules.sections))
+        unread = rules.unread_of_oil if section == "lubricant" else ()
+        every.append(_gap(section, section, getattr(system, section), section in rules.sections, set(unread)))
     for name in undescribed(system, columns):
         every.append(_gap("surfaces", f"surfaces.{toml_key(name)}", None, True))
     stated = system.uncertainty.model_fields_set

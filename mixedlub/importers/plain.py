@@ -13,6 +13,7 @@ from mixedlub.importers.base import Answers, Draft, Question, contact_form, ques
 from mixedlub.importers.column_units import target_for
 from mixedlub.importers.decimals import DECIMAL, MARKS
 from mixedlub.importers.input_file import InputFile
+from mixedlub.importers.kinematic import as_dynamic
 from mixedlub.importers.likeness import likely_headers, likely_kind, likeness_of_reading
 from mixedlub.importers.matching import import_keys, match, wanted
 from mixedlub.importers.one_value import constants, value_keys
@@ -92,6 +93,8 @@ def draft(file: InputFile, answers: Answers) -> Draft:
     if TIME in columns:
         columns[TIME], clock_notes = continued(columns[TIME], matched.headers[TIME], sheet, date_order(answers))
     columns |= constants(likely, answers, len(sheet.lines))
+    where = f"{name}: {matched.headers.get(str(quantity), quantity)}"
+    columns, density_note = as_dynamic(columns, matched.units, answers, where)
     readings = columns.get(str(quantity)) if likely.is_unsigned(str(quantity)) else None
     not_positive = [] if readings is None else not_above_zero(str(quantity), readings.tolist(), sheet.lines)
     header = header_of_runs(sheet, answers)
@@ -108,7 +111,7 @@ def draft(file: InputFile, answers: Answers) -> Draft:
         *([f"the same in all rows, as answered: {', '.join(fixed)}"] if fixed else []),
         *([f"{sheet.left_out} left out: no part of the table"] if sheet.left_out else []),
         *matched.notes,
-        *([count_note] if count_note else []),
+        *(note for note in (count_note, density_note) if note),
     ]
     notes = [
         *(finding("decimal_mark_assumed", text, name) for text in sheet.notes),

@@ -12,7 +12,7 @@ import numpy as np
 from mixedlub.importers.base import Answers, Question, read_note
 from mixedlub.importers.header import COUNTED
 from mixedlub.importers.text_table import Cells, Sheet, is_numeric, places
-from mixedlub.importers.vocabulary import BY_NAME, Target
+from mixedlub.importers.vocabulary import BY_NAME, Target, family
 from mixedlub.schema.dates import ORDERS, moments, resolution
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.units import change_to, fits, rounded, split, words_of
@@ -90,9 +90,9 @@ def headers_in_time(cells: Cells) -> list[str]:
 
 
 def target_in(target: Target, unit: str) -> Target:
-    """The target in the family of a unit; a time may be counted in cycles or metres."""
-    family = next((f for f in PACES if target.name == TIME and change_to(unit, f) is not None), target.unit)
-    return replace(target, unit=family)
+    """The target in the family of a unit; a time may be counted in cycles or metres, a viscosity be kinematic."""
+    counts = (f for f in PACES if target.name == TIME and change_to(unit, f) is not None)
+    return replace(target, unit=next(counts, family(target, unit)))
 
 
 def pace_questions(headers: Mapping[str, str], units: Mapping[str, str], answers: Answers) -> list[Question]:

@@ -8,13 +8,11 @@ import numpy as np
 
 from mixedlub.kinds import KINDS, kind
 from mixedlub.schema.table import BOOKKEEPING
-from mixedlub.schema.units import change_to, fits, is_unit, open_units, read_as, rounded, tidy, units_of, words_of
+from mixedlub.schema.units import change_to, fits, is_unit, open_units, read_as, rounded, units_of, words_of
 from profiles.errors import InputError
 
 WEIGHED = {"g": "grams-force of 9.80665 mN", "kg": "kilograms-force of 9.80665 N"}
 """Units of mass that a load is given in, and what they then are."""
-KINEMATIC = ("mm2/s", "cst", "st", "m2/s", "cm2/s")
-"""Units, in small letters, in which viscosity is divided by density."""
 
 
 @dataclass(frozen=True)
@@ -43,13 +41,27 @@ def target_of(header: str) -> Target | None:
     return next((t for t in TARGETS if words in t.spoken), None)
 
 
+def is_kinematic(unit: str | None) -> bool:
+    """Whether a unit is one of kinematic viscosity, in which viscosity is divided by density."""
+    return unit is not None and change_to(unit, "mm2_s") is not None
+
+
+def family(target: Target, unit: str) -> str:
+    """The unit of a column, or that of a kinematic viscosity which density turns into it.
+
+    >>> family(BY_NAME["viscosity_mPa_s"], "cSt"), family(BY_NAME["viscosity_mPa_s"], "cP")
+    ('mm2_s', 'mPa_s')
+    """
+    return "mm2_s" if target.unit == "mPa_s" and is_kinematic(unit) else target.unit
+
+
 def is_of_another(unit: str, target: Target) -> bool:
     """Whether a unit is one of another quantity than a column's; a kinematic viscosity is still one of viscosity.
 
     >>> is_of_another("mPa s", BY_NAME["friction_coefficient"]), is_of_another("mm2/s", BY_NAME["viscosity_mPa_s"])
     (True, False)
     """
-    if tidy(unit).lower() in KINEMATIC:
+    if is_kinematic(unit):
         return target.unit != "mPa_s"
     return is_unit(unit) and not fits(unit, target.unit)
 
@@ -59,7 +71,7 @@ def unknown_unit(unit: str, target: Target) -> str:
     candidates = open_units(unit, target.unit)
     if candidates:
         return f"as unit of {target.name} leaves open which is meant; say {' or '.join(candidates)}"
-    if target.unit == "mPa_s" and tidy(unit).lower() in KINEMATIC:
+    if target.unit == "mPa_s" and is_kinematic(unit):
         hint = "this is a kinematic viscosity: in mm²/s, times the density in g/cm³, it is in mPa s"
     else:
         hint = f"it could be {', '.join(units_of(target.unit))}"

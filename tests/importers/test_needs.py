@@ -152,6 +152,14 @@ def test_what_is_derived_is_told_with_its_value(tmp_path, monkeypatch, capsys):
     assert "uncertainty.viscosity (treated as exact)" in rest
 
 
+def test_a_viscosity_case_lists_no_property_of_the_oil_that_it_never_reads():
+    found = recorded({"kind": "viscosity", "recording": {"quantity": "viscosity_mPa_s"}}, temperature_C=[40.0])
+    assert "density_15C_kg_m3" in found["lubricant"].assumed
+    assert not {"eyring_stress_MPa", "thermal_conductivity_W_mK", "specific_heat_J_kgK"} & set(
+        found["lubricant"].assumed
+    )
+
+
 def test_an_oil_of_which_nothing_is_said_is_fitted_and_not_known():
     columns = {"load_N": [20.0], "entrainment_speed_m_s": [1.0], "slide_roll_ratio": [0.0], "oil_temperature_C": [40.0]}
     ball = {"geometry": "point", "radius_mm": [9.5, 20.0]}
