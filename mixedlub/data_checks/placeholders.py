@@ -17,8 +17,6 @@ FAR = 0.2
 """Judgement. Size from which the other readings are far from zero, over their median."""
 STEPS = 3.0
 """Judgement. The same in steps of the reading: less may be rounded to zero."""
-RUNS_SHOWN = 5
-"""Runs that a finding lists at most."""
 
 
 def placeholders(quantity: str, rows: Table, y: np.ndarray, base: np.ndarray) -> list[Finding]:
@@ -41,7 +39,7 @@ placeholder, of a channel that was not on or a cell filled in; delete its row (r
         return []
     one, several = ("is", "a placeholder", "its row (run"), ("are", "placeholders", "their rows (runs")
     are, likely, its = one if count == 1 else several
-    runs = listed(rows["run"][zero].tolist(), RUNS_SHOWN)
+    runs = listed(rows["run"][zero].tolist())
     text = (
         f"{count} of {y.size} readings {are} exactly zero where the others are {near:.3g} or more in size: "
         f"likely {likely}, of a channel that was not on or a cell filled in; delete {its} {runs})"
