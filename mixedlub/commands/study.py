@@ -113,7 +113,7 @@ def resumed(progress: Callable[[int, int], None], parts: str = "blocks") -> Call
         nonlocal calls
         calls += 1
         if calls == 1 and done:
-            echo(f"{done} of {of} {parts} are kept from an earlier start, {of - done} are computed")
+            echo(f"{parts} kept from an earlier start: {done} of {of}; to compute: {of - done}")
         progress(done, of)
 
     return counted

@@ -1,4 +1,4 @@
-"""Readings that are exactly zero where all others are far from it: a channel that was not on, or a cell filled in."""
+"""Readings that are exactly zero where nearly all others are far from it: a channel not on, or a cell filled in."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ def placeholders(quantity: str, rows: Table, y: np.ndarray, base: np.ndarray) ->
     >>> rows = Table({"run": np.arange(1, 8)})
     >>> y = np.array([0.0, 0.11, 0.12, 0.11, 0.10, 0.12, 0.11])
     >>> [str(one) for one in placeholders("friction_coefficient", rows, y, np.ones(7))]
-    ['friction_coefficient: 1 of 7 readings is exactly zero where the others are 0.1 or more in size: likely a \
-placeholder, of a channel that was not on or a cell filled in; delete its row (run 1)']
+    ['friction_coefficient: 1 of 7 readings is exactly zero where nearly all others are 0.1 or more in size: likely a \
+placeholder, of a channel that was not on or a cell filled in; delete its row (run 1) if so']
     """
     zero = (y == 0.0) & (base != 0.0)
     others = np.abs(y[y != 0.0])
@@ -41,7 +41,7 @@ placeholder, of a channel that was not on or a cell filled in; delete its row (r
     are, likely, its = one if count == 1 else several
     runs = listed(rows["run"][zero].tolist())
     text = (
-        f"{count} of {y.size} readings {are} exactly zero where the others are {near:.3g} or more in size: "
-        f"likely {likely}, of a channel that was not on or a cell filled in; delete {its} {runs})"
+        f"{count} of {y.size} readings {are} exactly zero where nearly all others are {near:.3g} or more in size: "
+        f"likely {likely}, of a channel that was not on or a cell filled in; delete {its} {runs}) if so"
     )
     return [finding("readings_zero", text, quantity)]

@@ -96,7 +96,7 @@ def unit_question(column: str, header: str, target: Target) -> Question:
         return Question(UNIT_KEYS + column, f"{text}, whose header is ambiguous", UNKNOWN_UNIT, options=candidates)
     units = units_of(target.unit)
     if column == "friction_coefficient" and FORCE.search(words_of(header)):
-        text += "; of a force, with the unit of the load, force over load is taken"
+        text += "; of a force, with the unit of the load, force divided by load is taken"
         units = (*units, *units_of("N"))
     if column == TIME:
         first = counted(header)

@@ -21,7 +21,10 @@ SAMPLE_LENGTH = 4096
 """Characters from the start of a text that show whether it is one."""
 
 
-NO_TABLES = {"JSON": re.compile(r"\s*(?:\{\s*[\"}]|\[\s*[\[{\"])"), "HTML or XML": re.compile(r"\s*<[!?A-Za-z]")}
+NO_TABLES = {
+    "JSON": re.compile(r"\s*(?:\{\s*[\"}]|\[\s*[\[{\"])"),
+    "HTML or XML": re.compile(r"\s*<(?:[!?]|html\b)", re.IGNORECASE),
+}
 """How texts begin that hold no table, by the name of their format."""
 READ_FORMS = "text with a header line and a row for each reading (.csv, .txt) and workbooks (.xlsx), each also .gz"
 

@@ -11,7 +11,7 @@ from mixedlub.importers.answer_keys import COLUMNS
 from mixedlub.importers.base import Question
 from mixedlub.importers.text_table import Cells, is_numeric
 from mixedlub.importers.time_base import TIME, counted
-from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, WEIGHED, family, is_kinematic, target_of
+from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, WEIGHED, Target, family, is_kinematic, target_of
 from mixedlub.kinds import KINDS
 from mixedlub.kinds import kind as kind_of
 from mixedlub.schema.dates import is_dated
@@ -141,16 +141,16 @@ def spread_of(header: str) -> str | None:
     return None if match is None else (words[: match.start()] + words[match.end() :]).strip()
 
 
-def likely_spread(quantity: str, header: str, cells: Cells) -> str | None:
+def likely_spread(reading: Target, header: str, cells: Cells) -> str | None:
     """The header of the standard deviation of the reading: its words are among those of the reading's header."""
-    reading_words = {*words_of(header).split(), *split(quantity)[0].split()}
+    reading_words = {*words_of(header).split(), *split(reading.name)[0].split()}
     n_words = {}
     for other, values in cells.items():
         spread_words, unit = spread_of(other), split(other)[1]
         if (
             spread_words is None
             or not is_numeric(values)
-            or (unit is not None and not fits(unit, BY_NAME[quantity].unit))
+            or (unit is not None and not fits(unit, family(reading, unit)))
         ):
             continue
         if set(spread_words.split()) <= reading_words:

@@ -172,7 +172,8 @@ def _named_header(column: str, cells: Cells, answers: Answers) -> str:
         raise InputError("is a logarithm; add a column of the quantity itself", where=where, value=header)
     unit = answers.get(UNIT_KEYS + column, split(header)[1])
     if column.startswith(VISCOSITY) and "kinematic" in words_of(header).split() and not is_kinematic(unit):
-        rule = "is a kinematic viscosity; add a column of it times the density: mm²/s times g/cm³ is mPa s"
+        rule = f'is a kinematic viscosity; give its unit, {UNIT_KEYS}{column} = "mm2/s", and the density of the oil, '
+        rule += "lubricant.density_15C_kg_m3; or add a column of it times the density: mm²/s times g/cm³ is mPa s"
         raise InputError(rule, where=where, value=header)
     return header
 
@@ -331,7 +332,7 @@ def _spare(kind: Kind, quantity: str, cells: Cells, matched: _Matched) -> dict[s
     free = {h: v for h, v in _offered(cells, matched.headers).items() if toml_value(h) not in offered}
     near = spare_headers(absent, free)
     reading, sd = matched.headers.get(quantity), f"{quantity}_sd"
-    spread = None if reading is None or sd in matched.headers else likely_spread(quantity, reading, free)
+    spread = None if reading is None or sd in matched.headers else likely_spread(BY_NAME[quantity], reading, free)
     return near if spread is None else {**near, sd: spread}
 
 

@@ -346,7 +346,7 @@ def _spread(
         scattered: dict[str, list[str]] = {
             h: [] for h in in_all_steps if any(np.any(s.columns[h] > 0.0) for s in chosen)
         }
-        header = likely_spread(quantity, reading, scattered)
+        header = likely_spread(BY_NAME[quantity], reading, scattered)
         spare = {} if header is None else {column: header}
         notes = [finding("column_not_taken", text, name) for text in spare_notes(spare)]
         return {}, spare_questions(spare), notes

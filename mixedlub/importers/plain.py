@@ -56,7 +56,7 @@ def draft(file: InputFile, answers: Answers) -> Draft:
     _refuse_unknown(kind, answers)
     name = file.name
     sheet, selection_notes = selected_rows(file.table(_decimal(answers)), answers)
-    with_ratio, left_to_answer, ratio_note = over_load(sheet, answers)
+    with_ratio, left_to_answer, ratio_notes = over_load(sheet, answers)
     likely = kind_of(kind or likely_kind(with_ratio.cells))
     if kind is not None and quantity is not None and quantity not in likely.quantities:
         rule = f"a case of kind {kind!r} records {' or '.join(likely.quantities)}"
@@ -70,8 +70,10 @@ def draft(file: InputFile, answers: Answers) -> Draft:
             example = toml_value(quantity)
             among = likely.quantities
             questions.append(Question("recording.quantity", "Recorded quantity", example, options=among, offered=True))
-    if quantity == COEFFICIENT and ratio_note:
-        sheet, answers, selection_notes = with_ratio, left_to_answer, [*selection_notes, ratio_note]
+    if quantity == COEFFICIENT:
+        sheet, answers = with_ratio, left_to_answer
+    else:
+        ratio_notes = []
     matched = match(likely, str(quantity), sheet.cells, answers)
     further = (*matched.questions, *contact_form(likely.name, answers), *questions_of(likely.name))
     if questions:
@@ -118,6 +120,7 @@ def draft(file: InputFile, answers: Answers) -> Draft:
         *(finding("rows_left_out", text, name) for text in incomplete),
         *(finding("column_not_taken", text, name) for text in matched.warned),
         *pooled,
+        *ratio_notes,
         *(read_note(text, name) for text in how_read),
         *clock_notes,
         *(read_note(text, name) for text in not_positive),

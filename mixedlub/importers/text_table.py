@@ -259,7 +259,9 @@ def _refuse_numbers_above(rows: Sequence[Line], name: str) -> None:
         raise InputError(f"no header: the first line holds numbers only; name the columns above it{turned}", where=name)
     if len(values) > 2 and 2 * len(values) > sum(map(bool, first)):
         shown = ", ".join(values[:NUMBERS_SHOWN])
-        rule = f"the header holds numbers ({shown}, ...), so the table seems to be turned: each quantity, such as the "
+        alike = [*map(is_number, first)] == [*map(is_number, rows[1][1])]
+        seems = "seems to be turned, or has no header" if alike else "seems to be turned"
+        rule = f"the header holds numbers ({shown}, ...), so the table {seems}: each quantity, such as the "
         rule += "temperature, must have one column, with its name in the header, and each reading one row"
         raise InputError(rule, where=f"{name}: line {number}")
 

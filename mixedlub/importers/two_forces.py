@@ -1,45 +1,63 @@
-"""A friction coefficient that a table holds as two forces: the friction force over the load."""
+"""A friction coefficient that a table holds as two forces: the friction force divided by the load."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from mixedlub.importers.answer_keys import COLUMNS, UNIT_KEYS, VALUES
-from mixedlub.importers.base import Answers
-from mixedlub.importers.likeness import likely_headers, spread_of
+from mixedlub.importers.base import Answers, read_note
+from mixedlub.importers.likeness import likely_headers, likely_spread, spare_notes, spread_of
 from mixedlub.importers.text_table import Cells, Sheet, TextColumn, is_numeric, values_of
 from mixedlub.importers.vocabulary import BY_NAME, convert, target_of
+from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.units import change_to, split, words_of
 
-COEFFICIENT, LOAD = "friction_coefficient", "load_N"
+COEFFICIENT, SD, LOAD = "friction_coefficient", "friction_coefficient_sd", "load_N"
 FRICTION = re.compile(r"\b(?:friction|tangential|traction|reib)")
 """Words of a force that is friction."""
+LEAST_LOAD = 0.01
+"""Judgement. Load over the median of the loads, below which bodies do not touch: there a load cell shows its noise."""
 
 
-def over_load(sheet: Sheet, answers: Answers) -> tuple[Sheet, Answers, str]:
-    """The table with the coefficient in place of the friction force, what is then answered, and a note.
+def over_load(sheet: Sheet, answers: Answers) -> tuple[Sheet, Answers, list[Finding]]:
+    """The table with the coefficient in place of the friction force, what is then answered, and notes.
 
-    All as they are, without a note, where the table has a coefficient, or not one friction force and one load in units
-    of force.
+    The standard deviation of the force, where an answer names it, is divided too. All as they are, without notes, where
+    the table has a coefficient, or not one friction force and one load in units of force.
     """
     force = _friction_force(sheet.cells, answers)
     load = None if force is None else _load(sheet, force, answers)
     if force is None or load is None:
-        return sheet, answers, ""
+        return sheet, answers, []
     loads, words = load
-    newtons = convert(values_of(sheet.cells[force]), _unit(force, COEFFICIENT, answers), BY_NAME[LOAD], force)
-    # Bodies that do not touch have no coefficient; loads that are all negative are refused as such later.
-    touching = loads > 0.0 if np.any(loads > 0.0) else loads != 0.0
+    forces = {COEFFICIENT: force}
+    in_force = {h: v for h, v in sheet.cells.items() if h != force and is_numeric(v) and _unit(h, SD, answers)}
+    spread = answers.get(COLUMNS + SD)
+    if spread in in_force:
+        forces[SD] = str(spread)
+    columns = {h: (c, _divided(sheet, h, _unit(h, c, answers), loads)) for c, h in forces.items()}
+    cells = dict(columns.get(h, (h, values)) for h, values in sheet.cells.items())
+    told = {key + column for key in (COLUMNS, UNIT_KEYS) for column in forces}
+    others = {key: v for key, v in answers.items() if key not in told}
+    notes = [read_note(f"{column} is {h!r} divided by {words}", sheet.name) for column, h in forces.items()]
+    likely = None if spread else likely_spread(replace(BY_NAME[COEFFICIENT], unit="N"), force, in_force)
+    left = {} if likely is None else {SD: likely}
+    notes += [finding("column_not_taken", text, sheet.name) for text in spare_notes(left)]
+    return replace(sheet, cells=cells), others, notes
+
+
+def _divided(sheet: Sheet, header: str, unit: str, loads: np.ndarray) -> TextColumn:
+    """A force divided by the load, empty in rows without load."""
+    newtons = convert(values_of(sheet.cells[header]), unit, BY_NAME[LOAD], header)
+    # Loads that are all negative are refused as such later.
+    pressed = loads[loads > 0.0]
+    touching = loads >= LEAST_LOAD * np.median(pressed) if pressed.size else loads != 0.0
     share = np.divide(newtons, loads, out=np.full(newtons.shape, np.nan), where=touching)
-    column = TextColumn("" if np.isnan(value) else repr(value) for value in share.tolist())
-    cells = {(COEFFICIENT if h == force else h): (column if h == force else v) for h, v in sheet.cells.items()}
-    others = {key: v for key, v in answers.items() if key not in (COLUMNS + COEFFICIENT, UNIT_KEYS + COEFFICIENT)}
-    return replace(sheet, cells=cells), others, f"{COEFFICIENT} is {force!r} over {words}"
+    return TextColumn("" if np.isnan(value) else repr(value) for value in share.tolist())
 
 
 def _unit(header: str, column: str, answers: Answers) -> str:
@@ -60,14 +78,13 @@ def _friction_force(cells: Cells, answers: Answers) -> str | None:
 
 
 def _load(sheet: Sheet, force: str, answers: Answers) -> tuple[np.ndarray, str] | None:
-    """The load of each row in newtons, and what it is called; None where no header or several may be it."""
+    """The load of each row in newtons, and what it is called; None where no header or several are it."""
     constant: Any = answers.get(VALUES + LOAD)
     if isinstance(constant, int | float):
         return np.full(len(sheet.lines), float(constant)), f"the load of {constant:g} N"
     others = {h: values for h, values in sheet.cells.items() if h != force and is_numeric(values)}
     named = answers.get(COLUMNS + LOAD)
-    headers: Sequence[Any] = [h for h in others if target_of(h) == BY_NAME[LOAD]] if named is None else [named]
-    headers = headers or list(likely_headers([LOAD], others).values())
+    headers = [h for h in others if target_of(h) == BY_NAME[LOAD]] if named is None else [named]
     loads = [h for h in headers if h in others and _unit(h, LOAD, answers)]
     if len(loads) != 1:
         return None

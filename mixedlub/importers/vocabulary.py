@@ -72,10 +72,10 @@ def unknown_unit(unit: str, target: Target) -> str:
     if candidates:
         return f"as unit of {target.name} leaves open which is meant; say {' or '.join(candidates)}"
     if target.unit == "mPa_s" and is_kinematic(unit):
-        hint = "this is a kinematic viscosity: in mm²/s, times the density in g/cm³, it is in mPa s"
+        rule = "is one of kinematic viscosity: in mm²/s, times the density in g/cm³, it is in mPa s"
     else:
-        hint = f"it could be {', '.join(units_of(target.unit))}"
-    return f"unit of {target.name} is not known; {hint}"
+        rule = f"is not known; it could be {', '.join(units_of(target.unit))}"
+    return f"unit of {target.name} {rule}"
 
 
 def convert(values: np.ndarray, unit: str, target: Target, where: str) -> np.ndarray:

@@ -48,7 +48,7 @@ def _refuse_ignored(e: Effect, options: Options) -> None:
 
 
 def _tell_defaults(e: Effect, given: Mapping[str, float | str], values: Mapping[str, float]) -> None:
-    """Report the law that was taken where none is named, and an effect that nothing switches on."""
+    """Report the law that was taken where none is named, numbers of no law, and an effect that nothing switches on."""
     taken, *others = e.laws_within_reach or ("",)
     if others and LAW not in given and not given.keys() >= e.laws_within_reach[taken].keys():
         text = f"taken as the law of {taken}; law = NAME chooses {' or '.join(others)}"
@@ -57,6 +57,13 @@ def _tell_defaults(e: Effect, given: Mapping[str, float | str], values: Mapping[
     if switches and all(values[name] == null for name, null in switches.items()) and not switches.keys() & given.keys():
         text = f"changes nothing: a value for {' or '.join(switches)} switches it on"
         report(finding("effect_off", text, f"effects.{e.id}"))
+        return
+    known = {*given, *e.laws_within_reach.get(str(given.get(LAW, taken)), {})}
+    # A factor of 1 leaves the law as it is.
+    usual = [p for p in e.parameters if p.name not in known and p.nominal is None and values[p.name] not in (p.null, 1)]
+    if usual:
+        numbers = ", ".join(f"{p.name} = {values[p.name]:g} {p.unit.strip('-')}".strip() for p in usual)
+        report(finding("effect_number_assumed", f"taken, as the file gives none: {numbers}", f"effects.{e.id}"))
 
 
 def _refuse_unread(file: StudyFile, given: Sequence[str]) -> None:

@@ -92,14 +92,15 @@ FIRST = (
     Column(
         "asperity_load_ratio",
         "asperity_load_ratio",
-        "pressure that asperities would carry over mean Hertz pressure, the largest of the path; above 1 the film "
-        'would have to give way, which it does with balance = "johnson_greenwood_poon"',
+        "pressure that asperities would carry over mean Hertz pressure, the largest of the places that carry at "
+        "least a tenth of the largest line load; above 1 the film would have to give way, which it does with "
+        'balance = "johnson_greenwood_poon"',
     ),
     Column(
         "asperity_real_pressure",
         "asperity_real_pressure_MPa",
-        "pressure of the asperities over their real contact area, at the place of the path where they carry most; 0 "
-        "where none touch",
+        "pressure of the asperities over their real contact area, where they carry most among the places that "
+        "carry at least a tenth of the largest line load; 0 where none touch",
         1e-6,
     ),
     Column(
@@ -151,7 +152,8 @@ FURTHER = (
     Column(
         "asperity_load_share",
         "asperity_load_share",
-        "share of the load that asperities carry, the largest of the path, at most 1",
+        "share of the load that asperities carry, at most 1, the largest of the places that carry at least a tenth "
+        "of the largest line load",
     ),
     Column(
         "flash_temperature",
@@ -218,8 +220,8 @@ def ends_of_bands(columns: Iterable[Column]) -> list[Column]:
 COLUMNS = {c.output: c for c in (*FIRST, *ends_of_bands(FIRST), *FURTHER, *ends_of_bands(FURTHER))}
 """Every column of an output that is not the loss of an effect, in the order of the table."""
 CHECKS = {
-    "largest_area_ratio": "boundary area ratio where asperities carry most",
-    "balance_error": "part of the load by which film and asperities together miss it, the largest of the path",
+    "largest_area_ratio": "boundary area ratio where asperities carry most, as asperity_load_ratio has it",
+    "balance_error": "part of the load by which film and asperities together miss it, the largest of the same places",
     "film_below_its_share": "1 where the film carries less than its law is for, anywhere on the path",
 }
 """Meaning of the checks of a computation that no table has."""

@@ -32,7 +32,7 @@ def following(plan: Plan, inputs: Mapping[str, Any], values: Mapping[str, np.nda
 
 
 def derived(plan: Plan, pair: GearPair, values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """That of the whole study, and what no surface changes or needs all conditions, in the shape of the study."""
+    """That of the whole study, with what has no band or needs all conditions, in the shape of the study."""
     most = values["power_loss"].max()
     found = {
         **following(plan, plan.inputs, values),

@@ -158,7 +158,8 @@ class Options(_Laws):
         },
     )
     bands: Literal["none", "traces", "short_cutoff", "both"] = key(
-        "low and high columns of every result that the surfaces change",
+        "low and high columns of every result but input power, loss factors, temperature of the teeth and losses by "
+        "single effects; the temperature of the teeth is kept in all bands",
         "none",
         values={
             "none": "no bands",

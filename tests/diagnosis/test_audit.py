@@ -83,7 +83,7 @@ def test_a_value_in_a_fifth_of_the_rows_is_named_with_its_runs(case: Case) -> No
 def test_readings_of_exactly_zero_among_others_far_from_it_are_named_with_their_runs(case: Case) -> None:
     (note,) = told(case, first(2, 0.0))
     assert (note.code, note.place) == ("readings_zero", "friction_coefficient")
-    assert note.text.startswith("2 of 72 readings are exactly zero where the others are 0.0")
+    assert note.text.startswith("2 of 72 readings are exactly zero where nearly all others are 0.0")
     assert "(runs 1, 2)" in note.text
     assert told(case, first(2, 1e-4)) == []
 

@@ -130,6 +130,8 @@ def test_what_is_no_text_is_refused(data, tmp_path):
         ('{\n  "oil": "A",\n  "temperature_C": [20, 40]\n}\n', "JSON"),
         ('[{"temperature_C": 20, "viscosity_mPa_s": 90}]', "JSON"),
         ("<!DOCTYPE html>\n<html><body>20,90</body></html>\n", "HTML or XML"),
+        ("\n<HTML><body>20,90</body></HTML>\n", "HTML or XML"),
+        ('<?xml version="1.0"?>\n<data>20,90</data>\n', "HTML or XML"),
     ],
 )
 def test_a_format_without_a_table_is_named_with_those_that_are_read(text, form, tmp_path):
@@ -143,3 +145,8 @@ def test_a_format_without_a_table_is_named_with_those_that_are_read(text, form, 
 def test_a_header_may_begin_with_a_bracket(tmp_path):
     (tmp_path / "t.csv").write_text("[1] temperature_C,viscosity_mPa_s\n20,90\n")
     assert open_file(tmp_path / "t.csv", {}).table().lines == (2,)
+
+
+def test_a_header_in_angle_brackets_is_no_markup(tmp_path):
+    (tmp_path / "t.csv").write_text("<Time>,COF\n1,0.1\n2,0.2\n")
+    assert list(open_file(tmp_path / "t.csv", {}).table().cells) == ["<Time>", "COF"]

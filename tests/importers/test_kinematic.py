@@ -56,7 +56,9 @@ def test_without_a_density_they_are_refused_with_what_would_do(header, answers):
     with pytest.raises(InputError) as caught:
         read(f"Temperature [C],{header}", answers)
     assert caught.value.where == f"t.csv: {header}"
-    assert "this is a kinematic viscosity: in mm²/s, times the density in g/cm³, it is in mPa s" in str(caught.value)
+    assert "viscosity_mPa_s is one of kinematic viscosity: in mm²/s, times the density in g/cm³, it is in mPa s" in str(
+        caught.value
+    )
     assert "lubricant.density_15C_kg_m3" in str(caught.value)
 
 
@@ -64,6 +66,21 @@ def test_a_dynamic_viscosity_beside_is_taken_first():
     found = read("temperature_C,Kinematic viscosity [mm2/s],Viscosity [mPa s]", DENSE, "15,100,91\n40,40,35\n")
     assert found.columns["viscosity_mPa_s"].tolist() == [91.0, 35.0]
     assert "kinematic, so" not in " ".join(map(str, found.notes))
+
+
+def test_their_spread_is_told():
+    (note,) = (
+        n
+        for n in read("temperature_C,Viscosity [cSt],Viscosity sd [cSt]", DENSE, "15,100,1\n40,40,1\n").notes
+        if n.code == "column_not_taken"
+    )
+    assert "'Viscosity sd [cSt]' is not taken; if it is viscosity_mPa_s_sd: --set" in note.text
+
+
+def test_without_a_unit_the_key_of_the_unit_is_told():
+    told = {**DENSE, "import.columns.viscosity_mPa_s": "Kinematic viscosity"}
+    with pytest.raises(InputError, match=r'give its unit, import\.units\.viscosity_mPa_s = "mm2/s", and'):
+        read("temperature_C,Kinematic viscosity", told)
 
 
 def test_the_unit_may_be_an_answer():

@@ -89,6 +89,11 @@ def test_a_table_whose_header_holds_numbers_seems_to_be_turned(first):
     assert "seems to be turned: each quantity, such as the temperature, must have one column" in str(caught.value)
 
 
+def test_rows_with_a_clock_or_a_name_may_have_no_header():
+    with pytest.raises(InputError, match="seems to be turned, or has no header: each quantity"):
+        read_sheet("12:00:01,20,90,30\n12:00:02,21,91,30\n", "log.csv")
+
+
 def test_two_lines_of_numbers_may_be_a_turned_table():
     with pytest.raises(InputError, match="if they are values of a quantity, turn the table"):
         read_sheet("0,20,40\n90,30,12\n", "wide.csv")

@@ -32,7 +32,7 @@ def test_force_over_load_is_taken_and_said(header, factor):
     assert [q.key for q in found.questions if q.needed] == []
     assert found.columns["friction_coefficient"].tolist() == pytest.approx([0.1 * factor, 0.12 * factor, -0.1 * factor])
     _, friction, load = header.split(",")
-    assert f"friction_coefficient is {friction!r} over {load!r}" in said(found)
+    assert f"friction_coefficient is {friction!r} divided by {load!r}" in said(found)
     assert "3 of 3 columns taken: time_s, load_N, friction_coefficient" in said(found)
     assert "not taken" not in said(found)
 
@@ -51,10 +51,10 @@ def test_a_recorded_coefficient_is_taken_before_two_forces():
 def test_the_load_may_be_one_value_for_all_rows():
     found = read("Time [s],Friction force [mN]", {**HISTORY, "import.values.load_N": 2.0}, "0,100\n1,200\n")
     assert found.columns["friction_coefficient"].tolist() == pytest.approx([0.05, 0.1])
-    assert "friction_coefficient is 'Friction force [mN]' over the load of 2 N" in said(found)
+    assert "friction_coefficient is 'Friction force [mN]' divided by the load of 2 N" in said(found)
 
 
-@pytest.mark.parametrize("load", ["0", "-0.2"])
+@pytest.mark.parametrize("load", ["0", "-0.2", "0.001"])
 def test_rows_without_load_have_no_coefficient_and_are_left_out(load):
     found = read("Time [s],Friction force [N],Load [N]", rows=f"0,1,10\n1,1,{load}\n2,3,10\n")
     assert found.columns["friction_coefficient"].tolist() == pytest.approx([0.1, 0.3])
@@ -78,7 +78,42 @@ def test_forces_without_units_are_asked_for_them():
     header = "Time [s],Friction force,Load"
     questions = {q.key: q for q in read(header).questions if q.needed}
     asked = questions["import.units.friction_coefficient"]
-    assert "of a force, with the unit of the load, force over load is taken" in asked.text
+    assert "of a force, with the unit of the load, force divided by load is taken" in asked.text
     assert "N" in asked.options
     told = {**HISTORY, "import.units.friction_coefficient": "N", "import.units.load_N": "N"}
     assert read(header, told).columns["friction_coefficient"].tolist() == pytest.approx([0.1, 0.12, -0.1])
+
+
+@pytest.mark.parametrize("load", ["Preload [N]", "Load cell [N]"])
+def test_a_load_by_another_name_divides_only_by_answer(load):
+    header = f"Time [s],Friction force [N],{load}"
+    found = read(header)
+    assert "friction_coefficient" not in found.columns
+    assert "import.columns.friction_coefficient" in {q.key for q in found.questions if q.needed}
+    assert f"{load!r} is not taken; if it is load_N: --set" in said(found)
+    assert "divided" not in said(found)
+    told = read(header, {**HISTORY, "import.columns.load_N": load})
+    assert told.columns["friction_coefficient"].tolist() == pytest.approx([0.1, 0.12, -0.1])
+
+
+def test_loads_in_steps_are_all_loads():
+    found = read("Time [s],Friction force [N],Load [N]", rows="0,1,10\n1,10,100\n2,90,1000\n")
+    assert found.columns["friction_coefficient"].tolist() == pytest.approx([0.1, 0.1, 0.09])
+
+
+def test_the_spread_of_the_force_is_told_and_divided_by_answer():
+    header, rows = "Time [s],Friction force [N],Load [N],Friction force sd [mN]", "0,1,10,100\n1,2,20,100\n"
+    found = read(header, rows=rows)
+    assert "friction_coefficient_sd" not in found.columns
+    (note,) = (n for n in found.notes if n.code == "column_not_taken")
+    assert "'Friction force sd [mN]' is not taken; if it is friction_coefficient_sd: --set" in note.text
+    told = {**HISTORY, "import.columns.friction_coefficient_sd": "Friction force sd [mN]"}
+    found = read(header, told, rows)
+    assert found.columns["friction_coefficient_sd"].tolist() == pytest.approx([0.01, 0.005])
+    assert "friction_coefficient_sd is 'Friction force sd [mN]' divided by 'Load [N]'" in said(found)
+    assert "column_not_taken" not in {n.code for n in found.notes}
+
+
+def test_the_spread_of_the_load_is_none_of_the_force():
+    found = read("Time [s],Friction force [N],Load [N],Load sd [N]", rows="0,1,10,1\n1,2,20,1\n")
+    assert "column_not_taken" not in {n.code for n in found.notes}

@@ -60,7 +60,7 @@ def test_a_resumed_study_says_how_much_was_there(capsys):
     progress = resumed(lambda done, of: seen.append((done, of)))
     progress(3, 8)
     progress(4, 8)
-    assert capsys.readouterr().out == "3 of 8 blocks are kept from an earlier start, 5 are computed\n"
+    assert capsys.readouterr().out == "blocks kept from an earlier start: 3 of 8; to compute: 5\n"
     assert seen == [(3, 8), (4, 8)]
     resumed(lambda done, of: None)(0, 8)
     assert capsys.readouterr().out == ""

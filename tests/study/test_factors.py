@@ -315,7 +315,7 @@ def test_a_resumed_command_says_how_many_runs_are_kept(write_factors, tmp_path, 
     with pytest.raises(KeyboardInterrupt):
         full_factorial(varied, stop, factor_parts.parts_folder(out, varied))
     assert main(["factors", str(path), "--out", str(out)]) == 0
-    assert "2 of 3 runs are kept from an earlier start, 1 are computed" in capsys.readouterr().out
+    assert "runs kept from an earlier start: 2 of 3; to compute: 1" in capsys.readouterr().out
 
 
 def test_parts_are_gone_when_the_command_is_done(write_factors, tmp_path, monkeypatch):

@@ -91,6 +91,18 @@ def test_an_effect_switched_off_by_hand_is_not_told(write_study):
     assert "effect_off" not in codes(read_study(write_study(effects={"roughness_lay": {"lay": 0.0}})).notes)
 
 
+def test_a_number_that_neither_file_nor_law_gives_is_told(write_study):
+    def told(**given):
+        notes = read_study(write_study(effects=given)).notes
+        return [str(n) for n in notes if n.code == "effect_number_assumed"]
+
+    (note,) = told(asperity_plasticity={})
+    assert note == "effects.asperity_plasticity: taken, as the file gives none: hardness = 6e+09 Pa"
+    assert told(asperity_plasticity={"hardness": 7e9}) == []
+    assert told(churning={}, windage={}, bulk_temperature={}) == []
+    assert told(roughness_lay={}) == [], "which is off"
+
+
 def test_skewness_alone_leaves_the_spread_of_the_summits(write_study):
     taken = read_study(write_study(effects={"skewed_heights": {"skewness": -0.6}})).plan.parameters
     assert taken["skewed_heights"]["narrowing"] == 0.0
