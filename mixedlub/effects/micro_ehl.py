@@ -7,6 +7,9 @@ from mixedlub.chain.priors import LogNormal, Uniform
 from mixedlub.laws.film import wave_amplitude
 
 REFERENCE = 0.01
+NODES, WEIGHTS = np.polynomial.hermite_e.hermegauss(3)
+WEIGHTS = WEIGHTS / WEIGHTS.sum()
+"""Gauss' rule for a mean over the normal distribution."""
 
 
 @effect(
@@ -30,23 +33,23 @@ REFERENCE = 0.01
             nominal=1.0,
         ),
         Parameter(
-            "texture",
+            "spread",
             "-",
-            Uniform(0.0, 1.0),
-            "attenuation of slopes and curvatures relative to that of heights",
-            symbol="r",
-            nominal=1.0,
+            Uniform(0.0, 1.5),
+            "variance of the logarithm of the wavelengths of each surface over that of its spectrum",
+            symbol="v",
+            nominal=0.0,
         ),
     ),
-    equation=r"m_0 \leftarrow m_0\,[s_0 A_1^2 + (1 - s_0) A_2^2],\quad "
-    r"m_2 \leftarrow m_2\,[s_2 A_1^{2r} + (1 - s_2) A_2^{2r}],\quad m_4 \leftarrow m_4\,[s_4 A_1^{2r} + "
-    r"(1 - s_4) A_2^{2r}],\quad A_1 = \frac{1}{1 + 0.17\,\nabla + 0.03\,\nabla^2},\ "
-    r"\nabla = \frac{2\pi c}{b_H}\sqrt{\frac{s_0 m_0}{s_2 m_2}}\,\frac{M^{3/4}}{L^{1/2}},\ "
-    r"A_2 = A_1(1 - s_0,\ 1 - s_2),\quad "
-    r"M = \frac{W}{\sqrt{2U}},\ L = G(2U)^{1/4},\quad W = 2\pi(p_0/E')^2,\ G = \alpha E',\ "
-    r"U = \frac{\eta_0^a\,\eta_r^{1-a}u}{E'R},\ \eta_r = 0.01\,\text{Pa s}",
+    equation=r"m_k \leftarrow \sum_i m_{k,i}\,\mathrm{E}_z\,A(\nabla_i\,e^{(1-k)\,\sigma_i^2 + \sigma_i z})^2,\ "
+    r"k = 0, 2, 4,\quad z\text{ standard normal},\quad A = \frac{1}{1 + 0.17\,\nabla + 0.03\,\nabla^2},\quad "
+    r"\nabla_i = \frac{2\pi c}{b_H}\sqrt{\frac{m_{0,i}}{m_{2,i}}}\,\frac{M^{3/4}}{L^{1/2}},\quad "
+    r"\sigma_i^2 = \frac{v}{4}\ln\frac{m_{0,i}\,m_{4,i}}{m_{2,i}^2},\quad "
+    r"m_{k,1} = s_k m_k,\ m_{k,2} = (1 - s_k)\,m_k,\quad M = \frac{W}{\sqrt{2U}},\ L = G(2U)^{1/4},\quad "
+    r"W = 2\pi(p_0/E')^2,\ G = \alpha E',\ U = \frac{\eta_0^a\,\eta_r^{1-a}u}{E'R},\ \eta_r = 0.01\,\text{Pa s}",
     source="C. H. Venner, A. A. Lubrecht, J. Tribol. 116 (1994) 751; A. A. Lubrecht, C. H. Venner, Proc. "
-    "IMechE J 213 (1999) 397",
+    "IMechE J 213 (1999) 397; wave by wave of a spectrum as wide as the number of P. R. Nayak, J. Lubr. Technol. 93 "
+    "(1971) 398, says",
     fingerprint={"speed": "+", "oil_temperature": "-", "roughness": "-", "slide_roll_ratio": "+"},
     applied_after=("running_in",),
     separated_by="the short-wave filter of the roughness: long waves flatten and short ones do not, most at high "
@@ -70,18 +73,20 @@ def micro_ehl(
     *,
     relative_wavelength: float,
     viscous: float,
-    texture: float,
+    spread: float,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Film pressure flattens long-wavelength roughness inside the contact.
 
-    Each surface has waves of its own length, 2 pi (m0/m2)^(1/2). W follows from the Hertz pressure, 2 pi (p0/E')^2, as
+    Each surface has waves of its own length, 2 pi (m0/m2)^(1/2): one wave in the source, at ``spread`` 0. At 1 its
+    wavelengths are lognormal, as wide as its Nayak number m0 m4/m2^2 says: long waves, which make the heights, flatten
+    more than short ones, which make slopes and curvatures. W follows from the Hertz pressure, 2 pi (p0/E')^2, as
     for a line contact. Published forms differ in whether inlet viscosity enters; the reference viscosity 0.01 Pa s for
     those without makes the form belong to Pa s. Derived for pure rolling and transverse roughness.
 
     >>> here = dict(hertz_half_width=0.18e-3, hertz_pressure=0.9642e9, radius=8.3262e-3, reduced_modulus=226.374e9)
     >>> oil = dict(viscosity=0.01489, entrainment_speed=2.163, pressure_viscosity=14.81e-9)
     >>> like = dict(height_share=0.5, slope_share=0.5, curvature_share=0.5)   # waves of 60 um
-    >>> form = dict(relative_wavelength=1.0, viscous=1.0, texture=1.0)
+    >>> form = dict(relative_wavelength=1.0, viscous=1.0, spread=0.0)
     >>> m0, _, _ = micro_ehl(1e-12, (2e-6 * np.pi / 60e-6) ** 2, 1.0, **like, **here, **oil, **form)
     >>> round(float((m0 / 1e-12) ** 0.5), 2)   # amplitude left at nabla = 1.1
     0.82
@@ -90,12 +95,17 @@ def micro_ehl(
     speed = 2.0 * inlet * entrainment_speed / (reduced_modulus * radius)
     load = 2.0 * np.pi * (hertz_pressure / reduced_modulus) ** 2 * speed**-0.5
     material = pressure_viscosity * reduced_modulus * speed**0.25
-    left = []
-    for heights, slopes in ((height_share, slope_share), (1.0 - height_share, 1.0 - slope_share)):
-        length = 2.0 * np.pi * relative_wavelength * np.sqrt(m0 * heights / (m2 * slopes))
-        left.append(wave_amplitude(length / hertz_half_width, load, material) ** 2)
+    moments = tuple(
+        np.stack(np.broadcast_arrays(share, 1.0 - share)) * moment
+        for share, moment in ((height_share, m0), (slope_share, m2), (curvature_share, m4))
+    )
+    dominant = 2.0 * np.pi * relative_wavelength * np.sqrt(moments[0] / moments[1]) / hertz_half_width
+    variance = 0.25 * spread * np.log(np.maximum(moments[0] * moments[2] / moments[1] ** 2, 1.0))
 
-    def summed(share: np.ndarray, power: float) -> np.ndarray:
-        return share * left[0] ** power + (1.0 - share) * left[1] ** power
+    def left(order: int) -> np.ndarray:
+        middle = dominant * np.exp((1 - order) * variance)
+        waves = (middle * np.exp(np.sqrt(variance) * node) for node in NODES)
+        kept = sum(w * wave_amplitude(wave, load, material) ** 2 for w, wave in zip(WEIGHTS, waves, strict=True))
+        return np.asarray((moments[order // 2] * kept).sum(axis=0))
 
-    return m0 * summed(height_share, 1.0), m2 * summed(slope_share, texture), m4 * summed(curvature_share, texture)
+    return left(0), left(2), left(4)

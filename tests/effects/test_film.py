@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from mixedlub.effects.inlet_shear_heating import inlet_shear_heating
@@ -25,11 +26,32 @@ def test_each_surface_is_flattened_by_its_own_waves() -> None:
     here = {"hertz_half_width": 0.18e-3, "hertz_pressure": 1e9, "radius": 8e-3, "reduced_modulus": 226e9}
     oil = {"viscosity": 0.015, "entrainment_speed": 1.0, "pressure_viscosity": 15e-9}
     shares = {"height_share": 0.5, "slope_share": 1e-4, "curvature_share": 1e-8}
-    form = {"relative_wavelength": 1.0, "viscous": 1.0, "texture": 1.0}
+    form = {"relative_wavelength": 1.0, "viscous": 1.0, "spread": 0.0}
     m0, m2, m4 = micro_ehl(1e-14, 1e-2, 1e9, **shares, **here, **oil, **form)
     assert m0 / 1e-14 == pytest.approx(0.5, abs=0.05)
     assert m2 / 1e-2 == pytest.approx(1.0, abs=0.1)
     assert m4 / 1e9 == pytest.approx(1.0, abs=0.1)
+
+
+@pytest.mark.parametrize("spread", [0.3, 1.0])
+def test_waves_of_a_spectrum_are_flattened_one_by_one(spread: float) -> None:
+    """Against the spectrum itself, lognormal in the wave number q, with the amplitude of each wave."""
+    m0, m2, m4, width = 1e-14, 1e-3, 1e9, 0.18e-3
+    here = {"hertz_half_width": width, "hertz_pressure": 1e9, "radius": 8e-3, "reduced_modulus": 226e9}
+    oil = {"viscosity": 0.015, "entrainment_speed": 1.0, "pressure_viscosity": 15e-9}
+    shares = {"height_share": 1.0 - 1e-12, "slope_share": 1.0 - 1e-12, "curvature_share": 1.0 - 1e-12}
+    form = {"relative_wavelength": 1.0, "viscous": 1.0, "spread": spread}
+    found = np.array(micro_ehl(m0, m2, m4, **shares, **here, **oil, **form)) / (m0, m2, m4)
+    variance = 0.25 * spread * np.log(m0 * m4 / m2**2)
+    q = np.sqrt(m2 / m0) * np.exp(np.linspace(-8.0, 8.0, 4001))
+    density = np.exp(-((np.log(q) - np.log(m2 / m0) / 2.0 + variance) ** 2) / (2.0 * variance))
+    speed = 2.0 * 0.015 / (226e9 * 8e-3)
+    kept = wave_amplitude(
+        2.0 * np.pi / q / width, 2.0 * np.pi * (1.0 / 226.0) ** 2 * speed**-0.5, 15.0 * 226.0 * speed**0.25
+    )
+    expected = [np.sum(density * q**k * kept**2) / np.sum(density * q**k) for k in (0, 2, 4)]
+    assert found == pytest.approx(expected, abs=0.02)
+    assert found[0] < found[1] < found[2]
 
 
 @pytest.mark.literature(
