@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.diagnosis.settings.inference import LAWLESS_SHARES, OUTLIER_SHARE, OUTLIER_WIDTH
+from mixedlub.diagnosis.settings.inference import LAWFUL_SHARES, LAWLESS_SHARES, OUTLIER_SHARE, OUTLIER_WIDTH
 
 _LOG_IN = np.log1p(-OUTLIER_SHARE)
 _LOG_OUT = np.log(OUTLIER_SHARE / OUTLIER_WIDTH * np.sqrt(2.0 / np.pi))
@@ -40,17 +40,18 @@ def outlier_chance(residual: np.ndarray) -> np.ndarray:
 
 
 def lawless_gain(residual: np.ndarray) -> float:
-    """Log Bayes factor of more readings with wide errors, LAWLESS_SHARES of all, than there are outliers.
+    """Log Bayes factor of shares of wide errors at which no law holds, LAWLESS_SHARES, over those where one still does.
 
-    >>> few, many = np.zeros(40), np.zeros(40)
-    >>> few[:2], many[:14] = 30.0, 30.0
-    >>> [round(lawless_gain(one)) for one in (few, many)]
-    [-4, 39]
+    >>> some, many = np.zeros(100), np.zeros(100)
+    >>> some[:12], many[:35] = 30.0, 30.0
+    >>> [round(lawless_gain(one)) for one in (some, many)]
+    [-3, 25]
     """
     inside, outside = _log_parts(residual)
-    usual = np.logaddexp(inside, outside)
-    more = [
-        np.logaddexp(inside + np.log1p(-share) - _LOG_IN, outside + np.log(share / OUTLIER_SHARE)) - usual
-        for share in LAWLESS_SHARES
-    ]
-    return float(np.logaddexp.reduce(np.sum(more, axis=1)) - np.log(len(LAWLESS_SHARES)))
+
+    def mean_evidence(shares: tuple[float, ...]) -> float:
+        inner = inside[:, None] - _LOG_IN + np.log1p(-np.array(shares))
+        outer = outside[:, None] + np.log(np.array(shares) / OUTLIER_SHARE)
+        return float(np.logaddexp.reduce(np.logaddexp(inner, outer).sum(axis=0)) - np.log(len(shares)))
+
+    return mean_evidence(LAWLESS_SHARES) - mean_evidence(LAWFUL_SHARES)

@@ -85,7 +85,7 @@ class Search:
     def log_weights(self) -> dict[Explanation, float]:
         """Log prior plus log evidence of every explanation.
 
-        That of the unknown counts the discrepancy, and that more readings than outliers follow no law.
+        That of the unknown counts the discrepancy, and that too many readings for outliers follow no law.
         """
         odds = self.prior_odds
         found = {explanation: score + odds.log(explanation) for explanation, score in self.scores.items()}

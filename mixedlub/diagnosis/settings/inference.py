@@ -40,8 +40,8 @@ OUTLIER_WIDTH = 10.0
 """Judgement. Half-width of the outlier distribution in standard deviations: clearly wider than noise."""
 OUTLIER_WEIGHT = 0.5
 """Judgement. Precision weight below which a reading is treated as an outlier: it has lost half of its weight."""
-LAWLESS_SHARES = (0.25, 0.4)
-"""Judgement. Shares of readings far off that are not outliers: a law that leaves so many does not hold."""
+LAWFUL_SHARES, LAWLESS_SHARES = (0.01, 0.05, 0.1), (0.25, 0.4)
+"""Judgement. Shares of outliers where a law holds, to those of a poor recording, and shares that no law leaves."""
 LAWLESS_ODDS = 0.02
 """Judgement. Prior odds of such a recording: one in fifty."""
 CLIPPED_AT = 3.0
