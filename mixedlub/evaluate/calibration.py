@@ -93,7 +93,9 @@ COLUMNS = (
     columns.OIL_TEMPERATURE,
     Column("bulk_temperature_C", at_least=-60.0, at_most=400.0, required=False, meaning="of the teeth, for viscosity"),
     Column("load_dependent_loss_W", above=0.0, meaning="of the mesh, without the loss at zero load"),
-    Column(LOSS_SD, above=0.0, required=False, meaning="its standard deviation, own where none is given"),
+    Column(
+        LOSS_SD, above=0.0, required=False, meaning="its standard deviation, where no column says what readings share"
+    ),
     Column(OWN, above=0.0, required=False, meaning="its standard deviation from reading to reading"),
     Column(COMMON, at_least=0.0, at_most=1.0, required=False, meaning="relative; of one error common to all readings"),
     Column("series", "name", required=False, meaning="readings with one load-independent loss, whose error they share"),
@@ -141,7 +143,11 @@ def _scatter(file: CalibrationFile, table: Table) -> Scatter:
     own = next((name for name in (OWN, LOSS_SD) if name in table), None)
     if SERIES_SD in table and "series" not in table:
         raise InputError("needs the column 'series'", where=table.source, value=SERIES_SD)
-    stated = [name for name in (COMMON, SERIES_SD) if name in table]
+    shared = [name for name in (COMMON, "series", SERIES_SD) if name in table]
+    if own == LOSS_SD and shared:
+        rule = f"needs the column {OWN} in place of {LOSS_SD}, which contains what readings share"
+        raise InputError(rule, where=table.source, value=shared[0])
+    stated = [name for name in shared if name != "series"]
     stated += ["calculated_loss_sd"] if file.calculated_loss_sd else []
     if own is None and stated:
         raise InputError(f"needs the column {OWN} beside it", where=table.source, value=stated[0])

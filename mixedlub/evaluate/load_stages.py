@@ -117,7 +117,10 @@ def split_loss(
 
 
 def _relative(errors: Errors, dependent: np.ndarray, loss: np.ndarray) -> np.ndarray:
-    """Relative standard deviation of the load-dependent loss (W) by errors common to all; zero where there is none."""
+    """Relative standard deviation of the load-dependent loss (W) by errors common to all; zero where there is none.
+
+    All sources together are taken as one fully correlated error, as a fit of the losses has one for all of them.
+    """
     moved = combined({name: dependent @ one for name, one in errors.common.items()})
     return np.divide(np.abs(moved), np.abs(loss), out=np.zeros_like(loss), where=np.abs(loss) > 0.0)
 

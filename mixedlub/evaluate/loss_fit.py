@@ -103,12 +103,14 @@ class Scatter:
 class Fit:
     """Free coefficients by name with their covariance; ``at_bound`` names those that a bound holds.
 
-    ``shared`` (p,) is the part of each variance that errors of stated size bring which readings share.
+    ``shared`` (p,) is the part of each variance that errors of stated size bring which readings share. ``own_90`` is the
+    half width of the 90 % interval over the standard deviation of the rest.
     """
 
     values: Mapping[str, float]
     covariance: np.ndarray
     shared: np.ndarray
+    own_90: float
     at_bound: tuple[str, ...]
     freedom: int
     chi_square: float
@@ -122,9 +124,8 @@ class Fit:
 
     @property
     def half_width(self) -> np.ndarray:
-        """Half widths of the 90 % intervals; few readings widen what their scatter tells."""
-        own = self.sd**2 - self.shared
-        return np.sqrt(student.isf(0.05, self.freedom) ** 2 * own + NORMAL_90**2 * self.shared)
+        """Half widths of the 90 % intervals; few readings widen what their scatter tells, not what is known."""
+        return np.sqrt(self.own_90**2 * (self.sd**2 - self.shared) + NORMAL_90**2 * self.shared)
 
     @property
     def correlations(self) -> pd.DataFrame:
@@ -196,7 +197,9 @@ def calibrated(
         raise RunError(f"the fit of {', '.join(names)} has not converged: narrow the bounds")
     free = found.active_mask == 0
     chi_square = float(2.0 * found.cost)
-    spread = max(chi_square / freedom, 1.0) if scatter.known else chi_square / freedom
+    known = scatter.known and chi_square <= freedom
+    spread = 1.0 if known else chi_square / freedom
+    own_90 = NORMAL_90 if known else float(student.isf(0.05, freedom))
     jacobian = found.jac[:, free]
     jacobian[: loss.size] /= np.sqrt(spread)
     gain = np.full((free.size, jacobian.shape[0]), np.nan)
@@ -205,7 +208,7 @@ def calibrated(
     held = tuple(name for name, own in zip(names, free[: len(names)], strict=True) if not own)
     values = dict(zip(names, map(float, found.x), strict=False))
     part = (gain[:, loss.size :] ** 2).sum(axis=1)
-    return Fit(values, gain @ gain.T, part, held, freedom, chi_square, of(found.x[: len(names)]))
+    return Fit(values, gain @ gain.T, part, own_90, held, freedom, chi_square, of(found.x[: len(names)]))
 
 
 def _inverse(jacobian: np.ndarray, names: list[str]) -> np.ndarray:

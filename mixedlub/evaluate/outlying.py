@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 
 import numpy as np
+import pandas as pd
 from scipy.interpolate import Akima1DInterpolator
 from scipy.ndimage import maximum_filter1d, minimum_filter1d
 from scipy.stats import theilslopes
@@ -21,6 +23,8 @@ NEIGHBOURS = 3
 """Judgement. Samples of the median about an angle between which a signal may lie."""
 NAMED = 3
 """Samples that a message names; it counts the others."""
+NEAR = 15
+"""Judgement. Angles in a row whose samples tell the scatter there."""
 SHORTEST = 4
 """Samples of a turn that an interpolation needs."""
 LEAST_REPEATS = 3
@@ -28,7 +32,12 @@ LEAST_REPEATS = 3
 
 
 def report_outlying(
-    deviation: np.ndarray, floor: float, channel: str, place: Callable[[int], str], *, beyond: np.ndarray | None = None
+    deviation: np.ndarray,
+    floor: float | np.ndarray,
+    channel: str,
+    place: Callable[[int], str],
+    *,
+    beyond: np.ndarray | None = None,
 ) -> None:
     """Report the samples whose deviation from the others is implausibly large.
 
@@ -38,30 +47,45 @@ def report_outlying(
     size = np.abs(deviation)
     if not np.isfinite(size).any():
         return
-    scale = max(TO_SIGMA * float(np.nanmedian(size)), floor)
-    counted = size if beyond is None else np.abs(beyond)
-    far = np.flatnonzero(counted > LIMIT * scale)
+    scale = np.maximum(TO_SIGMA * float(np.nanmedian(size)), floor)
+    counted = (size if beyond is None else np.abs(beyond)) / scale
+    far = np.flatnonzero(counted > LIMIT)
     far = far[np.argsort(-counted[far], kind="stable")]
-    told = "; ".join(f"{place(row)}: {counted[row] / scale:.3g}" for row in far[:NAMED])
     if far.size:
-        more = f"; and {far.size - NAMED} more samples" if far.size > NAMED else ""
-        text = f"far from the others, in robust standard deviations: {told}{more}; it is used as it is"
+        told = ", ".join(f"{place(row)} is {counted[row]:.3g}" for row in far[:NAMED])
+        more = f"; so are {far.size - NAMED} more samples" if far.size > NAMED else ""
+        used = "it is used as it is" if far.size == 1 else "they are used as they are"
+        text = f"{told} robust standard deviations from the others{more}; {used}"
         report(finding("sample_outlying", text, channel))
+
+
+def _scatter_near(deviation: np.ndarray, order: np.ndarray, count: int) -> np.ndarray:
+    """The largest robust standard deviation (n,) of ``count`` samples in a row, in ``order``, that reach each sample."""
+    scatter = np.empty(deviation.size)
+    near = pd.Series(np.abs(deviation[order])).rolling(count, center=True, min_periods=1).median()
+    scatter[order] = TO_SIGMA * near.rolling(count, center=True, min_periods=1).max()
+    return scatter
 
 
 def check_turns(turn: np.ndarray, angle: np.ndarray, signals: Mapping[str, np.ndarray], source: str) -> None:
     """Report samples of signals (n,) by channel that differ from the median of all turns at the same shaft angle.
 
-    What counts is the distance from the medians at the angle and its neighbours, as a signal may change at once.
-    Angles of one turn alone are left out. Two turns do not tell which is wrong: both are named.
+    What counts is the distance from the medians at the angle and its neighbours, as a signal may change at once, over
+    the scatter of the turn or near the angle, whichever is larger. Angles of one turn alone are left out. Two turns do
+    not tell which is wrong: both are named.
     """
     order = np.lexsort((angle, turn))
     _, first = np.unique(turn[order], return_index=True)
     parts = [rows for rows in np.split(order, first[1:]) if rows.size >= SHORTEST]
     if len(parts) < 2:
         return
+    start = float(np.sort([angle[rows[0]] for rows in parts])[1])
+    end = float(np.sort([angle[rows[-1]] for rows in parts])[-2])
+    if start >= end:
+        return
     step = float(np.median(np.diff(angle[order])))
-    grid = np.arange(angle.min(), angle.max() + step, max(step, 1e-3))
+    grid = np.linspace(start, end, 1 + math.ceil((end - start) / max(step, 1e-3)))
+    along = np.argsort(angle, kind="stable")
     for channel, signal in signals.items():
         curves = [Akima1DInterpolator(angle[rows], signal[rows], method="makima") for rows in parts]
         each = np.stack([curve(grid) for curve in curves])
@@ -71,12 +95,13 @@ def check_turns(turn: np.ndarray, angle: np.ndarray, signals: Mapping[str, np.nd
         low = minimum_filter1d(np.where(several, centre, np.inf), NEIGHBOURS)
         high = maximum_filter1d(np.where(several, centre, -np.inf), NEIGHBOURS)
         low, high = (np.where(several, one, np.nan) for one in (low, high))
-        middle, low, high = (np.interp(angle, grid, one) for one in (centre, low, high))
+        middle, low, high = (np.interp(angle, grid, one, np.nan, np.nan) for one in (centre, low, high))
         beyond = np.maximum(np.maximum(signal - high, low - signal), 0.0)
-        floor = RESOLUTION * float(np.ptp(centre[several])) if several.any() else 0.0
+        least = RESOLUTION * float(np.ptp(centre[several])) if several.any() else 0.0
+        floor = np.maximum(least, _scatter_near(signal - middle, along, NEAR * len(parts)))
 
         def place(row: int, signal: np.ndarray = signal) -> str:
-            return f"revolution {turn[row]} at {angle[row]:.4g} deg (row {row + 1}) with {signal[row]:.4g}"
+            return f"row {row + 1}, revolution {turn[row]} at {angle[row]:.4g} deg ({signal[row]:.4g})"
 
         report_outlying(signal - middle, floor, f"{source}, {channel}", place, beyond=beyond)
 
@@ -94,7 +119,7 @@ def check_repeats(value: np.ndarray, sd: np.ndarray, groups: np.ndarray, run: np
             deviation[rows] = value[rows] / middle - 1.0
     stated = float(np.median(sd / np.maximum(np.abs(value), np.median(np.abs(value)))))
     floor = max(RESOLUTION, stated)
-    report_outlying(deviation, floor, channel, lambda row: f"run {run[row]} with {value[row]:.4g}")
+    report_outlying(deviation, floor, channel, lambda row: f"run {run[row]} ({value[row]:.4g})")
 
 
 def check_lines(
@@ -102,16 +127,19 @@ def check_lines(
 ) -> None:
     """Report the reading of each series that is farthest off the median line, over the mean of that.
 
-    Twice what a slope that changes with x by a power of ``exponent`` bends the line does not count.
+    Twice what a slope that changes with x by a power of ``exponent`` bends the line does not count; nothing bends it
+    where x is zero.
     """
     deviation, beyond = np.full(y.size, np.nan), np.zeros(y.size)
     for one in np.unique(series):
-        rows = np.flatnonzero((series == one) & (x > 0.0))
+        rows = np.flatnonzero(series == one)
         if rows.size > LEAST_REPEATS and np.unique(x[rows]).size > 2:
-            slope, start, *_ = theilslopes(y[rows], x[rows])
+            slope, start, *_ = theilslopes(y[rows], x[rows], method="joint")
             line = start + slope * x[rows]
             deviation[rows] = (y[rows] - line) / line.mean()
-            bend = 2.0 * exponent * np.abs(np.log(x[rows] / np.median(x[rows]))) * np.abs(line / line.mean())
+            middle = np.median(x[rows][x[rows] > 0.0])
+            away = np.abs(np.log(np.where(x[rows] > 0.0, x[rows] / middle, 1.0)))
+            bend = 2.0 * exponent * away * np.abs(line / line.mean())
             off = np.maximum(np.abs(deviation[rows]) - bend, 0.0)
             beyond[rows[np.argmax(off)]] = off.max()
-    report_outlying(deviation, RESOLUTION, channel, lambda row: f"run {run[row]} with {y[row]:.4g}", beyond=beyond)
+    report_outlying(deviation, RESOLUTION, channel, lambda row: f"run {run[row]} ({y[row]:.4g})", beyond=beyond)

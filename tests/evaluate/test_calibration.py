@@ -9,7 +9,6 @@ import pytest
 
 from mixedlub.cli import main
 from mixedlub.evaluate import evaluate
-from mixedlub.evaluate.calibration import COLUMNS
 from mixedlub.validation.benches import gear_losses as bench
 from mixedlub.validation.benches.calorimetric import Errors, Gear
 from mixedlub.validation.benches.tables import as_csv
@@ -71,6 +70,15 @@ def test_more_scatter_than_stated_widens_the_intervals(tmp_path, exact):
     told = {**scattered(exact, 1), "load_dependent_loss_W_sd": sd.tolist()}
     wide, plain = (coefficients(found_of(tmp_path, columns))["sd"]["c1"] for columns in (told, scattered(exact, 1)))
     assert wide == pytest.approx(plain, rel=0.1)
+
+
+def test_known_errors_give_normal_intervals_and_scatter_those_of_student(tmp_path, exact):
+    """36 readings for three coefficients: Student's 95 % quantile at 33 degrees of freedom is 1.692."""
+    known = {**exact, "load_dependent_loss_W_sd": (0.03 * np.array(exact["load_dependent_loss_W"])).tolist()}
+    for columns, wide in ((known, 1.645), (scattered(exact, 1), 1.692)):
+        found = coefficients(found_of(tmp_path, columns)).loc[list(PLANTED)]
+        half = (found["high90"] - found["low90"]) / 2.0
+        assert half.to_numpy() == pytest.approx(wide * found["sd"].to_numpy(), rel=1e-3)
 
 
 def test_a_study_takes_the_calibrated_law_and_finds_the_mean_friction_again(tmp_path, exact):
@@ -158,6 +166,14 @@ def test_errors_that_readings_share_need_their_own_beside_them(tmp_path, exact, 
         found_of(tmp_path, told(exact, load_dependent_loss_W_sd_series=[5.0] * 36))
 
 
+@pytest.mark.parametrize("name", ["load_dependent_loss_relative_sd_common", "series"])
+def test_an_error_that_is_shared_is_not_counted_twice(tmp_path, exact, name):
+    sd = (0.02 * np.array(exact["load_dependent_loss_W"])).tolist()
+    shared = ["one"] * 36 if name == "series" else [0.01] * 36
+    with pytest.raises(InputError, match=f"'{name}': needs the column load_dependent_loss_W_sd_own in place of"):
+        found_of(tmp_path, {**exact, "load_dependent_loss_W_sd": sd, name: shared})
+
+
 BAD = [
     ({"coefficients": {"c5": 0.0, "c6": None}, "bounds": {"c6": [0.1, 3.0]}}, r"do not tell these apart.*"),
     ({"coefficients": {"c3": None}, "bounds": {"c3": [1.0, 9.0]}}, "no finite loss in the middle of the bounds"),
@@ -201,10 +217,10 @@ def test_intervals_hold_in_200_runs_of_a_calorimeter_whose_errors_are_common(tmp
     for seed in range(200):
         readings = bench.calorimeter(exact, errors, seed)
         heat = written(tmp_path, "calorimetric", {"readings.csv": as_csv(readings, 9)})
-        loss = evaluate("calorimetric", heat).tables["loss"]
-        columns = {one.name: loss[one.name].tolist() for one in COLUMNS if one.name in loss}
-        columns["series"] = [name.replace(",", "") for name in columns["series"]]
-        found = coefficients(found_of(tmp_path, columns, calculated_loss_sd=both)).loc[list(PLANTED)]
+        assert main(["evaluate", "calorimetric", str(heat), "--no-figures", "--out", str(tmp_path / "heat")]) == 0
+        losses = (tmp_path / "heat" / "loss.csv").read_text(encoding="utf-8")
+        path = written(tmp_path, "calibration", {"losses.csv": losses}, readings="losses.csv", calculated_loss_sd=both)
+        found = coefficients(evaluate("calibration", path)).loc[list(PLANTED)]
         truth.append(list(PLANTED.values()))
         value.append(found["value"].to_numpy())
         low.append(found["low90"].to_numpy())
