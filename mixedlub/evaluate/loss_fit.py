@@ -103,8 +103,8 @@ class Scatter:
 class Fit:
     """Free coefficients by name with their covariance; ``at_bound`` names those that a bound holds.
 
-    ``shared`` (p,) is the part of each variance that errors of stated size bring which readings share. ``own_90`` is the
-    half width of the 90 % interval over the standard deviation of the rest.
+    ``shared`` (p,) is the part of each variance that errors of stated size bring which readings share. ``own_90`` is
+    the half width of the 90 % interval over the standard deviation of the rest.
     """
 
     values: Mapping[str, float]

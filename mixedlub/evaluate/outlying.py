@@ -60,7 +60,7 @@ def report_outlying(
 
 
 def _scatter_near(deviation: np.ndarray, order: np.ndarray, count: int) -> np.ndarray:
-    """The largest robust standard deviation (n,) of ``count`` samples in a row, in ``order``, that reach each sample."""
+    """Largest robust standard deviation (n,) of ``count`` samples in a row, in ``order``, that reach each sample."""
     scatter = np.empty(deviation.size)
     near = pd.Series(np.abs(deviation[order])).rolling(count, center=True, min_periods=1).median()
     scatter[order] = TO_SIGMA * near.rolling(count, center=True, min_periods=1).max()
