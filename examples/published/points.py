@@ -16,10 +16,12 @@ from mixedlub.case.folder import read_case
 from mixedlub.case.forward import Forward
 from mixedlub.chain.model import Model
 from mixedlub.effects import find
-from mixedlub.gear import RigidSharing, at_roll_angle
+from mixedlub.gear import RigidSharing, at_roll_angle, local_loss_factor, mesh
 from mixedlub.laws import heating
 from mixedlub.laws.contact import line_hertz_pressure
+from mixedlub.rig.build import gear_pair, sharing
 from mixedlub.schema import toml_file
+from mixedlub.schema.system_file import Gears
 from mixedlub.schema.table import Table
 from mixedlub.study import read_study, run_study
 from mixedlub.study.schema import StudyFile
@@ -54,6 +56,10 @@ CHANGES: tuple[tuple[str, str, tuple[str, Place], tuple[str, Place]], ...] = (
     ),
 )
 """What is compared, the change that the paper states, and geometry and place before and after."""
+RELIEVED = (("a", 6.0), ("b", 6.0), ("a", 4.0))
+"""Geometries and lengths (mm) of a tip relief of 30 um, which the paper does not print."""
+PINION_TORQUES = np.array([100.0, 1357.0, 2857.0])
+"""N m; on the wheel 1.4 times as much."""
 FULL_TORQUE = 71.7
 """Pinion torque called 100 % (N m)."""
 SPEEDS = (800.0, 6000.0)
@@ -74,6 +80,17 @@ def fast_gears() -> Iterator[Row]:
     for stated, measured, before, after in CHANGES:
         base, heat = (_percent(_mean(f, after) / _mean(f, before)) for f in friction)
         yield f"A: mean friction, {stated}", measured, base, heat
+
+
+def loss_factors() -> Iterator[Row]:
+    """Loss factors of the local load of both geometries over the torque."""
+    for geometry, length in RELIEVED:
+        elastic = {"model": "ldp", "tip_relief_um": [30.0, 30.0], "relief_length_mm": [length, length]}
+        gears = Gears.model_validate({"preset": f"high_speed_{geometry}", "load_sharing": elastic})
+        found = local_loss_factor(mesh(gear_pair(gears), sharing(gears.load_sharing, HERE)), PINION_TORQUES)
+        place = f"100, 1357 and 2857 N m at the pinion, {length:g} mm of relief"
+        text = ", ".join(f"{one:.4f}" for one in found)
+        yield f"A: loss factor, geometry {geometry.upper()}, {place}", "grows, then levels; B above A", text, text
 
 
 def _friction(geometry: str, effects: dict[str, dict[str, float]]) -> Any:
@@ -218,7 +235,7 @@ MEASURED_LOSS = np.array([170.0, 303.0, 478.0, 619.0, 555.0])
 
 def every() -> Iterator[Row]:
     """All rows."""
-    for rows in (fast_gears, nasa_rig, two_discs, gears_of_the_two_disc_paper, measured_efficiency):
+    for rows in (fast_gears, loss_factors, nasa_rig, two_discs, gears_of_the_two_disc_paper, measured_efficiency):
         yield from rows()
 
 

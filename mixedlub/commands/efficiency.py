@@ -76,7 +76,7 @@ def command(
 
 
 def _say_unconfirmed(gearbox: Gearbox) -> None:
-    """Name the laws of parts whose constants no source at hand confirms."""
+    """Name the laws of parts whose constants no source that was read confirms."""
     laws = {part.law.title: part.law for stage in gearbox.stages for part in stage.parts}
     doubtful = [title for title, law in laws.items() if not law.sources and law.kind != "other"]
     if doubtful:

@@ -1,5 +1,6 @@
 """The count of items of papers at the top of its page is that of the rows, and what the rows name exists."""
 
+import ast
 import re
 from collections import Counter
 from pathlib import Path
@@ -7,11 +8,12 @@ from pathlib import Path
 import pytest
 
 import mixedlub
-from mixedlub import friction
+from mixedlub import effects, friction
 from mixedlub.cli import COMMANDS
 from mixedlub.evaluate import EVALUATIONS
 from mixedlub.schema.gear_file import gear_names
 from mixedlub.schema.oil_file import oil_names
+from mixedlub.slots import SLOTS
 
 PAGES = Path(__file__).parents[2] / "docs"
 PAGE = (PAGES / "validation" / "papers.md").read_text(encoding="utf-8")
@@ -32,11 +34,17 @@ def counted(items):
     return [str(len(items)), *(str(found[one]) for one in STATUS)]
 
 
+def parted(text):
+    """Items of the audit, and claims counted beside them."""
+    further = [row[0].startswith("further") for row in rows(text)]
+    return [[row for row, apart in zip(rows(text), further) if apart == kept] for kept in (False, True)]
+
+
 def test_the_numbers_at_the_top_are_those_of_the_rows():
-    made = [[text.splitlines()[0], *counted(rows(text))] for text in PAPERS]
-    every = [row for text in PAPERS for row in rows(text)]
-    assert rows(TOP) == [*made, ["all", *counted(every)]]
-    assert len(every) == 153
+    made = [[text.splitlines()[0], *counted(parted(text)[0])] for text in PAPERS]
+    items, further = ([row for text in PAPERS for row in parted(text)[kept]] for kept in (0, 1))
+    assert rows(TOP) == [*made, ["all", *counted(items)], ["further claims", *counted(further)]]
+    assert len(items) == 153
 
 
 @pytest.mark.parametrize("text", PAPERS, ids=[text.splitlines()[0] for text in PAPERS])
@@ -48,10 +56,22 @@ def test_each_item_is_there_once_and_says_what_lacks(text):
         assert how != "none" or status.split(":")[0] in ("no", "not reproducible"), name
 
 
-def test_what_the_rows_name_exists():
-    """Commands and methods by their lists, values of keys by theirs, and every other name somewhere in the source."""
-    source = "\n".join(path.read_text("utf-8") for path in Path(mixedlub.__file__).parent.rglob("*.py"))
+@pytest.fixture(scope="module")
+def declared():
+    """Keys of sections and effects; and texts of the source that are one name: of columns, tables, figures, kinds."""
+    trees = [ast.parse(path.read_text("utf-8")) for path in Path(mixedlub.__file__).parent.rglob("*.py")]
+    nodes = [node for tree in trees for node in ast.walk(tree)]
+    fields = [one for one in nodes if isinstance(one, ast.AnnAssign) and isinstance(one.value, ast.Call)]
+    keys = {one.target.id for one in fields if getattr(one.value.func, "id", "") == "key"}
+    keys |= {"NAME", *effects.catalogue(), *(slot.option for slot in SLOTS)}
+    return keys, {one.value for one in nodes if isinstance(one, ast.Constant) and isinstance(one.value, str)}
+
+
+def test_what_the_rows_name_exists(declared):
+    """Commands, methods and values of keys by their lists, keys by the sections, other names as whole ones."""
+    keys, names = declared
     known = {"friction": friction.catalogue(), "oil": oil_names(), "preset": gear_names()}
+    known |= {slot.option: slot.choices for slot in SLOTS}
     for text in re.findall(r"`([^`]+)`", "\n".join(PAPERS)):
         command, *rest = text.removeprefix("mixedlub ").split() if text.startswith("mixedlub ") else [""]
         assert not command or command in COMMAND_NAMES, text
@@ -59,5 +79,7 @@ def test_what_the_rows_name_exists():
         key, _, value = text.partition(" = ")
         if value.strip('"') != value and key in known:
             assert value.strip('"') in known[key], text
-        for name in [] if command else re.findall(r"\w+", key.removesuffix(".csv")):
-            assert UNIT.sub("", name) in source, text
+        said = [] if command else re.findall(r"\w+", key.removesuffix(".csv"))
+        places = keys if value or "." in key.removesuffix(".csv") or key.startswith("[") else keys | names
+        for name in said:
+            assert name in places or UNIT.sub("", name) in places, text
