@@ -70,9 +70,9 @@ def _scatter_near(deviation: np.ndarray, order: np.ndarray, count: int) -> np.nd
 def check_turns(turn: np.ndarray, angle: np.ndarray, signals: Mapping[str, np.ndarray], source: str) -> None:
     """Report samples of signals (n,) by channel that differ from the median of all turns at the same shaft angle.
 
-    What counts is the distance from the medians at the angle and its neighbours, as a signal may change at once, over
-    the scatter of the turn or near the angle, whichever is larger. Angles of one turn alone are left out. Two turns do
-    not tell which is wrong: both are named.
+    What counts is the distance from the medians about the angle and their neighbours, as a signal may change at once,
+    over the scatter of the turn or near the angle, whichever is larger. Angles of one turn alone are left out, and the
+    first and last step where no two turns begin or end alike. Two turns do not tell which is wrong: both are named.
     """
     order = np.lexsort((angle, turn))
     _, first = np.unique(turn[order], return_index=True)
@@ -86,6 +86,9 @@ def check_turns(turn: np.ndarray, angle: np.ndarray, signals: Mapping[str, np.nd
     step = float(np.median(np.diff(angle[order])))
     grid = np.linspace(start, end, 1 + math.ceil((end - start) / max(step, 1e-3)))
     along = np.argsort(angle, kind="stable")
+    before = np.clip(np.searchsorted(grid, angle) - 1, 0, grid.size - 2)
+    alike = [np.count_nonzero(angle == one) > 1 for one in (start, end)]
+    told = (angle >= (start if alike[0] else start + step)) & (angle <= (end if alike[1] else end - step))
     for channel, signal in signals.items():
         curves = [Akima1DInterpolator(angle[rows], signal[rows], method="makima") for rows in parts]
         each = np.stack([curve(grid) for curve in curves])
@@ -95,8 +98,9 @@ def check_turns(turn: np.ndarray, angle: np.ndarray, signals: Mapping[str, np.nd
         low = minimum_filter1d(np.where(several, centre, np.inf), NEIGHBOURS)
         high = maximum_filter1d(np.where(several, centre, -np.inf), NEIGHBOURS)
         low, high = (np.where(several, one, np.nan) for one in (low, high))
-        middle, low, high = (np.interp(angle, grid, one, np.nan, np.nan) for one in (centre, low, high))
-        beyond = np.maximum(np.maximum(signal - high, low - signal), 0.0)
+        low, high = np.minimum(low[before], low[before + 1]), np.maximum(high[before], high[before + 1])
+        middle = np.interp(angle, grid, centre, np.nan, np.nan)
+        beyond = np.where(told, np.maximum(np.maximum(signal - high, low - signal), 0.0), np.nan)
         least = RESOLUTION * float(np.ptp(centre[several])) if several.any() else 0.0
         floor = np.maximum(least, _scatter_near(signal - middle, along, NEAR * len(parts)))
 
