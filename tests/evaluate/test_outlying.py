@@ -131,3 +131,17 @@ def test_a_jump_or_normal_scatter_is_no_outlier_in_200_recordings():
         for seed in range(200):
             check_turns(*turns(seed, 2 + seed % 5)[:2], {"x": turns(seed, 2 + seed % 5)[2]}, "t.csv")
     assert len(found) <= 1, found[:3]
+
+
+@pytest.mark.parametrize("alike", [True, False])
+def test_a_jump_anywhere_in_quiet_turns_is_no_outlier(alike):
+    """Turns sampled at the same angles, or each at its own: also where the jump is within the first or last step."""
+    for seed in range(100):
+        random = np.random.default_rng(seed)
+        count, jump = 2 + seed % 5, random.uniform(0.0, 36.0)
+        begin = np.zeros(count) if alike else random.uniform(0.0, 0.9, count)
+        angle = (begin[:, None] + 0.9 * np.arange(40)).ravel()
+        signal = np.where(angle > jump, -60.0, 60.0) + 5.0 * np.sin(np.radians(10.0 * angle))
+        with collected() as found:
+            check_turns(np.repeat(np.arange(count), 40), angle, {"x": signal}, "t.csv")
+        assert not found, str(found[0])
