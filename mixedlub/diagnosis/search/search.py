@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from itertools import combinations
 
 import numpy as np
@@ -14,7 +13,7 @@ from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.additions import promising_additions
 from mixedlub.diagnosis.inference.change_points import integrate_change_points
 from mixedlub.diagnosis.inference.initial_guesses import PriorDraws, fit_singles, sample
-from mixedlub.diagnosis.inference.likelihood import lawless_gain, log_likelihood
+from mixedlub.diagnosis.inference.likelihood import log_likelihood
 from mixedlub.diagnosis.inference.map_fit import Fit, Linear, linear_fit, map_fit
 from mixedlub.diagnosis.inference.nested_laws import published_gain
 from mixedlub.diagnosis.problem import Problem, effects_of
@@ -22,7 +21,6 @@ from mixedlub.diagnosis.search.prior_odds import PriorOdds
 from mixedlub.diagnosis.search.several import discrepancy_beside_laws, fit_from, one_in_time, with_additions
 from mixedlub.diagnosis.settings.inference import (
     HOPELESS_BEHIND,
-    LAWLESS_ODDS,
     OUTLIER_SHARE,
     PAIR_LEADERS,
     PAIRS,
@@ -81,17 +79,12 @@ class Search:
         """The fit of any explanation, the discrepancy among them."""
         return self.discrepancy.fit if explanation.is_discrepancy else self.fits[explanation]
 
-    @cached_property
+    @property
     def log_weights(self) -> dict[Explanation, float]:
-        """Log prior plus log evidence of every explanation.
-
-        That of the unknown counts the discrepancy, and that too many readings for outliers follow no law.
-        """
+        """Log prior plus log evidence of every explanation."""
         odds = self.prior_odds
         found = {explanation: score + odds.log(explanation) for explanation, score in self.scores.items()}
-        lawless = [f.evidence + odds.log(m) + lawless_gain(f.residual) for m, f in self.fits.items()]
-        smooth = self.discrepancy.evidence + odds.log(DISCREPANCY)
-        found[DISCREPANCY] = float(np.logaddexp(smooth, np.log(LAWLESS_ODDS) + np.logaddexp.reduce(lawless)))
+        found[DISCREPANCY] = self.discrepancy.evidence + odds.log(DISCREPANCY)
         return found
 
     @property
