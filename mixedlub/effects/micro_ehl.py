@@ -41,12 +41,13 @@ WEIGHTS = WEIGHTS / WEIGHTS.sum()
             nominal=0.0,
         ),
     ),
-    equation=r"m_k \leftarrow \sum_i m_{k,i}\,\mathrm{E}_z\,A(\nabla_i\,e^{(1-k)\,\sigma_i^2 + \sigma_i z})^2,\ "
-    r"k = 0, 2, 4,\quad z\text{ standard normal},\quad A = \frac{1}{1 + 0.17\,\nabla + 0.03\,\nabla^2},\quad "
-    r"\nabla_i = \frac{2\pi c}{b_H}\sqrt{\frac{m_{0,i}}{m_{2,i}}}\,\frac{M^{3/4}}{L^{1/2}},\quad "
-    r"\sigma_i^2 = \frac{v}{4}\ln\frac{m_{0,i}\,m_{4,i}}{m_{2,i}^2},\quad "
-    r"m_{k,1} = s_k m_k,\ m_{k,2} = (1 - s_k)\,m_k,\quad M = \frac{W}{\sqrt{2U}},\ L = G(2U)^{1/4},\quad "
-    r"W = 2\pi(p_0/E')^2,\ G = \alpha E',\ U = \frac{\eta_0^a\,\eta_r^{1-a}u}{E'R},\ \eta_r = 0.01\,\text{Pa s}",
+    equation=r"m_{0,2,4} \leftarrow m_{0,2,4}\,[s_{0,2,4} B + (1 - s_{0,2,4}) B'],\quad "
+    r"B = \int_{-\infty}^{\infty} \frac{e^{-z^2/2}}{\sqrt{2\pi}}\,A(\nabla e^{(1-k) w + \sqrt{w} z})^2\,dz,\ "
+    r"k = 0, 2, 4,\quad A(q) = \frac{1}{1 + 0.17\,q + 0.03\,q^2},\quad "
+    r"\nabla = \frac{2\pi c}{b_H}\sqrt{\frac{s_0 m_0}{s_2 m_2}}\,\frac{M^{3/4}}{L^{1/2}},\quad "
+    r"w = \frac{v}{4}\ln\frac{s_0 m_0\,s_4 m_4}{(s_2 m_2)^2},\quad B' = B(1 - s_0,\ 1 - s_2,\ 1 - s_4),\quad "
+    r"M = \frac{W}{\sqrt{2U}},\ L = G(2U)^{1/4},\quad W = 2\pi(p_0/E')^2,\ G = \alpha E',\quad "
+    r"U = \frac{\eta_0^a\,\eta_r^{1-a}u}{E'R},\ \eta_r = 0.01\,\text{Pa s}",
     source="C. H. Venner, A. A. Lubrecht, J. Tribol. 116 (1994) 751; A. A. Lubrecht, C. H. Venner, Proc. "
     "IMechE J 213 (1999) 397; wave by wave of a spectrum as wide as the number of P. R. Nayak, J. Lubr. Technol. 93 "
     "(1971) 398, says",
@@ -95,17 +96,15 @@ def micro_ehl(
     speed = 2.0 * inlet * entrainment_speed / (reduced_modulus * radius)
     load = 2.0 * np.pi * (hertz_pressure / reduced_modulus) ** 2 * speed**-0.5
     material = pressure_viscosity * reduced_modulus * speed**0.25
-    moments = tuple(
-        np.stack(np.broadcast_arrays(share, 1.0 - share)) * moment
-        for share, moment in ((height_share, m0), (slope_share, m2), (curvature_share, m4))
-    )
-    dominant = 2.0 * np.pi * relative_wavelength * np.sqrt(moments[0] / moments[1]) / hertz_half_width
-    variance = 0.25 * spread * np.log(np.maximum(moments[0] * moments[2] / moments[1] ** 2, 1.0))
-
-    def left(order: int) -> np.ndarray:
-        middle = dominant * np.exp((1 - order) * variance)
-        waves = (middle * np.exp(np.sqrt(variance) * node) for node in NODES)
-        kept = sum(w * wave_amplitude(wave, load, material) ** 2 for w, wave in zip(WEIGHTS, waves, strict=True))
-        return np.asarray((moments[order // 2] * kept).sum(axis=0))
-
-    return left(0), left(2), left(4)
+    scale = 2.0 * np.pi * relative_wavelength / hertz_half_width
+    kept: list[list[np.ndarray]] = [[], [], []]
+    first = (height_share, slope_share, curvature_share)
+    for heights, slopes, curvatures in (first, tuple(1.0 - share for share in first)):
+        length = scale * np.sqrt(m0 * heights / (m2 * slopes))
+        variance = 0.25 * spread * np.log(np.maximum(m0 * heights * m4 * curvatures / (m2 * slopes) ** 2, 1.0))
+        for place, share in enumerate((heights, slopes, curvatures)):
+            middle = length * np.exp((1 - 2 * place) * variance)
+            waves = (middle * np.exp(np.sqrt(variance) * node) for node in NODES)
+            left = (w * wave_amplitude(wave, load, material) ** 2 for w, wave in zip(WEIGHTS, waves, strict=True))
+            kept[place].append(share * sum(left))
+    return m0 * sum(kept[0]), m2 * sum(kept[1]), m4 * sum(kept[2])

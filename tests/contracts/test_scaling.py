@@ -62,6 +62,7 @@ OTHER_ARGUMENTS = {
 OTHER_OUTPUTS = {
     "over_path": "Pa",
     "nayak_parameter": "-",
+    "carries_load": "-",
     "kinematic_viscosity": "m^2/s",
     "to_d341": "-",
     "from_d341": "m^2/s",
