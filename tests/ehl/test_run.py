@@ -77,4 +77,5 @@ def test_workers_of_a_cluster_solve_the_same(tmp_path: Path) -> None:
     alone = solved(oil, here, thermal=False)
     with distributed.LocalCluster(1, threads_per_worker=1, processes=False, dashboard_address=None) as cluster:
         found = solved(oil, here, thermal=False, scheduler=cluster.scheduler_address)
-    assert found["central_film"].to_numpy().tolist() == alone["central_film"].to_numpy().tolist()
+    # Threads of linear algebra add in another order.
+    assert found["central_film"].to_numpy() == pytest.approx(alone["central_film"].to_numpy(), rel=1e-12)
