@@ -228,7 +228,7 @@ class TestRefusals:
             pair = replace(HONG, **changes)
         except InputError:
             return
-        assert pair.contact_ratio >= 1
+        assert pair.contact_ratio + pair.overlap_ratio >= 1
         assert 0 <= pair.path_start < pair.pitch_point < pair.path_end <= pair.line_of_action_length * 1.000001
 
 
