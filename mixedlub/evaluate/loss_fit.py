@@ -124,7 +124,7 @@ class Fit:
 
     @property
     def half_width(self) -> np.ndarray:
-        """Half widths of the 90 % intervals; few readings widen what their scatter tells, not what is known."""
+        """Half widths of the 90 % intervals: Student's t for errors that the scatter gives, normal for stated ones."""
         return np.sqrt(self.own_90**2 * (self.sd**2 - self.shared) + NORMAL_90**2 * self.shared)
 
     @property

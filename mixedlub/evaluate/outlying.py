@@ -22,13 +22,13 @@ RESOLUTION = 5e-3
 NEIGHBOURS = 3
 """Judgement. Samples of the median about an angle between which a signal may lie."""
 NAMED = 3
-"""Samples that a message names; it counts the others."""
+"""Judgement. Samples that a message names; it counts the others."""
 NEAR = 15
 """Judgement. Angles in a row whose samples tell the scatter there."""
 SHORTEST = 4
-"""Samples of a turn that an interpolation needs."""
+"""Definition. Samples of a turn that an interpolation needs."""
 LEAST_REPEATS = 3
-"""Readings whose median bears one wrong one."""
+"""Definition. Fewest readings whose median stays right if one of them is wrong."""
 
 
 def report_outlying(

@@ -383,18 +383,6 @@ def test_losses_above_the_power_put_in_are_told(offset_folder: Path) -> None:
     assert "loss_above_input_power" not in codes(sound)
 
 
-@pytest.mark.parametrize(("payload", "told"), [(0.0, True), (3.0, False)])
-def test_a_friction_that_lost_its_sign_is_told(tmp_path: Path, payload: float, told: bool) -> None:
-    speed = np.concatenate([-np.geomspace(2.0, 200.0, 12), np.geomspace(2.0, 200.0, 12)])
-    friction = np.abs(payload + np.sign(speed) + speed / 200.0)
-    sections = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm"}}
-    case = read_case(write_case(tmp_path / "c", sections, {"speed_rpm": speed, "friction_torque_Nm": friction}))
-    assert case.recordings is not None
-    notes = check_readings(case, case.recordings, friction, Forward(case, case.recordings))
-    (severity,) = [note.severity for note in notes if note.code == "sign_lost"]
-    assert severity is (Severity.DOUBT if told else Severity.CAUTION)
-
-
 @pytest.mark.parametrize(
     ("times", "said"),
     [

@@ -12,7 +12,7 @@ from mixedlub.case.folder import read_case
 from mixedlub.case.forward import Forward
 from mixedlub.data_checks.audit import check_readings
 from mixedlub.importers import write_case
-from mixedlub.schema.findings import Finding
+from mixedlub.schema.findings import Finding, Severity
 
 SCATTER = 1.0 + 0.01 * np.random.default_rng(0).standard_normal(40)
 SPEED = np.tile(np.geomspace(1.0, 100.0, 10), 4)
@@ -84,3 +84,12 @@ def test_the_same_at_other_loads_is_no_matter_of_signs(tmp_path: Path) -> None:
 def test_a_single_wrong_sign_is_told_once(tmp_path: Path) -> None:
     (note,) = history(tmp_path, 0.1 * SCATTER * np.where(np.arange(40) == 6, -1.0, 1.0))
     assert note.text.endswith("(run 7)")
+
+
+@pytest.mark.parametrize(("payload", "severity"), [(0.0, Severity.DOUBT), (3.0, Severity.CAUTION)])
+def test_a_friction_that_lost_its_sign_is_told(tmp_path: Path, payload: float, severity: Severity) -> None:
+    speed = np.concatenate([-np.geomspace(2.0, 200.0, 12), np.geomspace(2.0, 200.0, 12)])
+    friction = np.abs(payload + np.sign(speed) + speed / 200.0)
+    columns = {"speed_rpm": speed, "friction_torque_Nm": friction}
+    notes = told(tmp_path, "friction_map", "friction_torque_Nm", columns)
+    assert [note.severity for note in notes if note.code == "sign_lost"] == [severity]

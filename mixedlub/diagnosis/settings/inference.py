@@ -41,7 +41,7 @@ OUTLIER_WIDTH = 10.0
 OUTLIER_WEIGHT = 0.5
 """Judgement. Precision weight below which a reading is treated as an outlier: it has lost half of its weight."""
 LAWFUL_SHARES, LAWLESS_SHARES = (0.01, 0.05, 0.1), (0.25, 0.4)
-"""Judgement. Shares of outliers where a law holds, to those of a poor recording, and shares that no law leaves."""
+"""Judgement. Shares of outliers in recordings whose law holds, and shares so large that none of the laws holds."""
 LAWLESS_ODDS = 0.02
 """Judgement. Prior odds of such a recording: one in fifty."""
 CLIPPED_AT = 3.0
