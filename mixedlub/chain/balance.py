@@ -71,7 +71,8 @@ def _root(film: np.ndarray, pressure: np.ndarray, k: float, carried: Callable[[n
     z = np.clip(z, low, high)
     wrong = np.full_like(z, np.inf)
     for _ in range(_MOST_STEPS):
-        growth = np.logaddexp(0.0, z)
+        less = np.exp(-np.abs(z))
+        growth = np.maximum(z, 0.0) + np.log(1.0 + less)
         last, thicker = thicker, np.exp(k * growth)
         now = log_share(thicker)
         wrong, wrong_before = now + growth - z, wrong
@@ -83,7 +84,7 @@ def _root(film: np.ndarray, pressure: np.ndarray, k: float, carried: Callable[[n
         slope = np.where(known, np.minimum((now - before) / np.where(known, moved, 1.0), 0.0), slope)
         before = now
         low, high = np.where(wrong > 0.0, z, low), np.where(wrong > 0.0, high, z)
-        share = np.exp(z - growth)
+        share = np.where(z > 0.0, 1.0, less) / (1.0 + less)
         step = wrong / ((1.0 - share) - slope * thicker * k * share)
         # pressure falls with the film itself, which grows with z as e^(kz) where asperities carry most
         step = np.where(z > 0.0, np.log(np.maximum(1.0 + k * step, 0.1)) / k, step)

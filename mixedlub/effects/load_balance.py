@@ -5,8 +5,9 @@ import numpy as np
 from mixedlub.chain.balance import balanced_film
 from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import LogNormal
-from mixedlub.laws.contact import asperity_pressure, summit_separation
+from mixedlub.laws.contact import pressure_per_overlap, summit_separation
 from mixedlub.laws.film import DOWSON_TOYODA
+from roughness.integrals import load_integral
 
 EXPONENT = DOWSON_TOYODA.speed - DOWSON_TOYODA.material
 """Of a line contact. It is 0.14 in a point contact by Hamrock and Dowson."""
@@ -63,6 +64,7 @@ def load_balance(
     The base law imposes the film of smooth surfaces on the rough ones; below a film ratio of about 1 its asperities
     would carry more than the load.
 
+    >>> from mixedlub.laws.contact import asperity_pressure
     >>> rough = (0.2214e-6, 0.7573e9, 0.13298e-6, 0.48970e-6, 4.4106e10, 7.8332e-6, 226.374e9)
     >>> h = load_balance(*rough, stiffness=1.0, exponent=0.13)
     >>> load = asperity_pressure((h - 0.13298e-6) / 0.48970e-6, 4.4106e10, 7.8332e-6, 0.48970e-6, 226.374e9)
@@ -72,8 +74,9 @@ def load_balance(
     if stiffness == 0.0:
         return film_thickness
 
+    whole = stiffness * pressure_per_overlap(summit_density, summit_radius, summit_sigma, reduced_modulus)
+
     def carried(film: np.ndarray) -> np.ndarray:
-        gap = summit_separation(film, plane_offset, summit_sigma)
-        return stiffness * asperity_pressure(gap, summit_density, summit_radius, summit_sigma, reduced_modulus)
+        return whole * load_integral(summit_separation(film, plane_offset, summit_sigma))
 
     return balanced_film(film_thickness, mean_pressure, exponent, carried)

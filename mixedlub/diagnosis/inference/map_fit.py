@@ -144,17 +144,20 @@ def map_fit(
     start: np.ndarray,
     *,
     warm: bool = False,
+    slopes: np.ndarray | None = None,
     rival: float = -np.inf,
     hopeless: float = HOPELESS_BEHIND,
+    tolerance: float = FIT_TOLERANCE,
 ) -> Fit:
     """Gauss-Newton with damping to the most probable coordinates, then Laplace's evidence.
 
     Unless the start is ``warm``, a robust (Huber) prefit comes first, because far from the solution every reading looks
-    like an outlier. A fit that must stay ``hopeless`` behind the evidence of a ``rival`` is given up.
+    like an outlier. The first step is made with ``slopes`` of a fit near by where there are any. A fit that must stay
+    ``hopeless`` behind the evidence of a ``rival`` is given up.
     """
-    state = _initial_state(problem, explanation, start)
+    state = _initial_state(problem, explanation, start, slopes)
     state = state if warm else _robust_prefit(problem, explanation, state)
-    return _laplace_fit(problem, explanation, state, rival, hopeless)
+    return _laplace_fit(problem, explanation, state, rival, hopeless, tolerance)
 
 
 def map_fits(
@@ -181,11 +184,14 @@ def fit_best_first(fit: Callable[[Item, float], Fit], items: Sequence[Item], riv
     return first + shared_out(lambda item: fit(item, best), items[FITTED_FIRST:])
 
 
-def _initial_state(problem: Problem, explanation: Explanation, start: np.ndarray) -> _State:
-    shared = np.zeros(problem.shared.shape[1])
-    return _State.at(
-        problem, explanation, np.clip(start, -MOST_COORDINATE, MOST_COORDINATE), shared, likelihood=log_likelihood
-    )
+def _initial_state(
+    problem: Problem, explanation: Explanation, start: np.ndarray, slopes: np.ndarray | None = None
+) -> _State:
+    z, shared = np.clip(start, -MOST_COORDINATE, MOST_COORDINATE), np.zeros(problem.shared.shape[1])
+    run = problem.run(explanation, z)
+    cost, weight = _cost(problem, run.prediction, z, shared, log_likelihood)
+    at_start = problem.jacobian(explanation, z, run) if slopes is None else slopes
+    return _State(z, shared, run, at_start, cost, weight, exact=slopes is None)
 
 
 def _robust_prefit(problem: Problem, explanation: Explanation, state: _State) -> _State:
@@ -200,10 +206,11 @@ def _laplace_fit(
     state: _State,
     rival: float = -np.inf,
     hopeless: float = HOPELESS_BEHIND,
+    tolerance: float = FIT_TOLERANCE,
 ) -> Fit:
     """Most probable coordinates, and Laplace's evidence there."""
     state = _gauss_newton(
-        problem, explanation, state, log_likelihood, tolerance=FIT_TOLERANCE, rival=rival, hopeless=hopeless
+        problem, explanation, state, log_likelihood, tolerance=tolerance, rival=rival, hopeless=hopeless
     )
     columns = np.hstack([state.slopes, problem.shared])
     curvature = np.eye(columns.shape[1]) + columns.T @ (columns * state.weight[:, None])
@@ -274,14 +281,8 @@ class _State:
     slopes: np.ndarray
     cost: float
     weight: np.ndarray
-
-    @classmethod
-    def at(
-        cls, problem: Problem, explanation: Explanation, z: np.ndarray, shared: np.ndarray, likelihood: Likelihood
-    ) -> _State:
-        run = problem.run(explanation, z)
-        cost, weight = _cost(problem, run.prediction, z, shared, likelihood)
-        return cls(z, shared, run, problem.jacobian(explanation, z, run), cost, weight)
+    exact: bool = True
+    """Whether the slopes are those at these coordinates."""
 
 
 def _gauss_newton(
@@ -300,7 +301,7 @@ def _gauss_newton(
     """
     z, shared, run, slopes = state.z, state.shared, state.run, state.slopes
     cost, weight = _cost(problem, run.prediction, z, shared, likelihood)
-    damping, exact = DAMPING_START, True
+    damping, exact = DAMPING_START, state.exact
     for step_number in range(GAUSS_NEWTON_STEPS):
         columns = np.hstack([slopes, problem.shared])
         scaled = columns * weight[:, None]

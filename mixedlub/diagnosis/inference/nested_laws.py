@@ -10,7 +10,7 @@ import numpy as np
 from mixedlub.diagnosis.inference.change_points import integrate_change_points
 from mixedlub.diagnosis.inference.map_fit import Fit, map_fit
 from mixedlub.diagnosis.problem import Problem
-from mixedlub.diagnosis.settings.inference import HOPELESS_LAW, OUTLIER_WEIGHT, SPIKE
+from mixedlub.diagnosis.settings.inference import HOPELESS_LAW, NESTED_TOLERANCE, OUTLIER_WEIGHT, SPIKE
 
 
 def published_odds(problem: Problem, free: Fit, worst: float = np.inf) -> Iterator[tuple[str, str, float]]:
@@ -25,14 +25,24 @@ def published_odds(problem: Problem, free: Fit, worst: float = np.inf) -> Iterat
         for law, values in e.laws_within_reach.items():
             drop = [place + names.index(name) for name in values]
             nested = replace(problem, fixed={**problem.fixed, e.id: {**problem.fixed.get(e.id, {}), **values}})
-            fit = _nested_fit(nested, free, np.delete(free.z, drop), worst)
+            fit = _nested_fit(nested, free, drop, worst)
             yield e.id, law, integrate_change_points(nested, fit).evidence - free.evidence
         place += len(names)
 
 
-def _nested_fit(nested: Problem, free: Fit, start: np.ndarray, worst: float) -> Fit:
+def _nested_fit(nested: Problem, free: Fit, drop: list[int], worst: float) -> Fit:
     """Fit the rest of an explanation again; also from a distant start where the near one has more outliers."""
-    fit = map_fit(nested, free.explanation, start, warm=True, rival=free.evidence, hopeless=worst)
+    start, slopes = np.delete(free.z, drop), np.delete(free.slopes, drop, axis=1)
+    fit = map_fit(
+        nested,
+        free.explanation,
+        start,
+        warm=True,
+        slopes=slopes,
+        rival=free.evidence,
+        hopeless=worst,
+        tolerance=NESTED_TOLERANCE,
+    )
     if fit.evidence < free.evidence - worst or np.count_nonzero(fit.weight < OUTLIER_WEIGHT) <= np.count_nonzero(
         free.weight < OUTLIER_WEIGHT
     ):

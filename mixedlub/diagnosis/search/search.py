@@ -133,7 +133,7 @@ def search(
     best = map_fit(problem, ranked[0], screen.fits[ranked[0]].z, warm=True)
     problem = problem.with_sd(best.prediction, problem.predict(NOTHING, screen.null_fit.z))
     fits = {m: integrate_change_points(problem, map_fit(problem, m, screen.fits[m].z, warm=True)) for m in leaders}
-    scores = _scores(problem, fits, space, values)
+    scores = _scores(problem, fits, space, values, screen.draws)
     names = {s.id for s in screen.draws}
     discrepancy = discrepancy_beside_laws(problem, fits, space, values, names)
     return Search(
@@ -153,10 +153,10 @@ def reweighed(search: Search, problem: Problem) -> Search:
     then, now = (max(f.evidence for f in fits.values()) - HOPELESS_BEHIND for fits in (search.fits, moved))
     near = {m for m, f in moved.items() if m == NOTHING or search.fits[m].evidence > then or f.evidence > now}
     fits = {
-        m: integrate_change_points(problem, map_fit(problem, m, f.z, warm=True)) if m in near else f
+        m: integrate_change_points(problem, map_fit(problem, m, f.z, warm=True, slopes=f.slopes)) if m in near else f
         for m, f in moved.items()
     }
-    null_fit, scores = fits[NOTHING], _scores(problem, fits, search.space, search.values)
+    null_fit, scores = fits[NOTHING], _scores(problem, fits, search.space, search.values, search.draws)
     names = {s.id for s in search.draws}
     discrepancy = discrepancy_beside_laws(problem, fits, search.space, search.values, names)
     draws = tuple(replace(s, change=s.change * scale) for s in search.draws)
@@ -206,19 +206,25 @@ def _search(
     fits |= {fit.explanation: fit for fit in _fit_pairs(problem, null_fit, singles, draws)}
     fits = with_additions(problem, fits, draws)
     fits = {m: integrate_change_points(problem, f) for m, f in fits.items() if shows(problem, f, fits)}
-    scores = _scores(problem, fits, space, values)
+    scores = _scores(problem, fits, space, values, draws)
     progress("weighing a discrepancy")
     discrepancy = discrepancy_beside_laws(problem, fits, space, values, {s.id for s in draws})
     return Search(problem, space, values, null_fit, fits, scores, discrepancy, draws, untestable)
 
 
 def _scores(
-    problem: Problem, fits: Mapping[Explanation, Fit], space: Coordinates, values: list[np.ndarray]
+    problem: Problem,
+    fits: Mapping[Explanation, Fit],
+    space: Coordinates,
+    values: list[np.ndarray],
+    draws: Sequence[PriorDraws],
 ) -> dict[Explanation, float]:
     """Evidence of every explanation with errors of form, and with published laws where it is near the best."""
     scores = {m: form_error_evidence(problem, fits[NOTHING], f, space, values) for m, f in fits.items()}
-    best = max(scores.values())
-    near = [m for m, s in scores.items() if s > best - PUBLISHED_WITHIN]
+    odds = PriorOdds.of(s.id for s in draws)
+    weights = {m: score + odds.log(m) for m, score in scores.items()}
+    best = max(weights.values())
+    near = [m for m, weight in weights.items() if weight > best - PUBLISHED_WITHIN]
     gains = shared_out(lambda m: published_gain(problem, fits[m]), near)
     return {**scores, **{m: scores[m] + gain for m, gain in zip(near, gains, strict=True)}}
 
@@ -250,7 +256,7 @@ def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: 
     ``scale`` is the old noise over the new.
     """
     new = {
-        m: map_fit(problem, m, f.z, warm=True)
+        m: map_fit(problem, m, f.z, warm=True, slopes=f.slopes * scale[:, None])
         for m, f in singles.items()
         if f.evidence > best.evidence - HOPELESS_BEHIND
     }

@@ -70,6 +70,8 @@ PREFIT_TOLERANCE = 0.5
 """Judgement. Gain in log probability below which a robust prefit ends: it only needs to be near."""
 FIT_TOLERANCE = 2e-3
 """Judgement. Gain in log probability below which a fit ends: invisible in any odds."""
+NESTED_TOLERANCE = 0.05
+"""Judgement. The same for a fit of published laws, whose log odds are averaged: a twentieth of a nat."""
 SAME_FIT_WITHIN = 0.1
 """Judgement. Prior standard deviations within which two prefits lead to the same result."""
 HOPELESS_BEHIND = 60.0

@@ -30,8 +30,8 @@ SUBSET = 600
 """Cost limit. Readings of that subset."""
 REFITTED_ON_ALL = 8
 """Cost limit. Most probable explanations of a subset that are fitted again to all readings."""
-PUBLISHED_WITHIN = 12.0
-"""Cost limit. Log evidence behind the best within which published laws of an explanation are weighed."""
+PUBLISHED_WITHIN = 10.0
+"""Cost limit. Log odds behind the best within which published laws of an explanation are weighed."""
 
 # Errors of form
 FORM_ERRORS = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
