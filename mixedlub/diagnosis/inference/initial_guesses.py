@@ -21,6 +21,7 @@ from mixedlub.diagnosis.settings.inference import (
     START_WITHIN,
     STARTS,
     STARTS_APART,
+    STARTS_UP_TO,
     STRAINED_CALIBRATION,
     VISIBLE_FROM,
 )
@@ -55,7 +56,7 @@ def sample(problem: Problem, name: str, null_fit: Fit) -> PriorDraws:
     alone = Explanation.of(name)
     effect = problem.effects(alone)[0]
     size = len(effect.parameters)
-    z = spread(size, PRIOR_DRAWS[min(size, len(PRIOR_DRAWS)) - 1])
+    z = spread(size, PRIOR_DRAWS * size)
     n_prior = len(z)
     for index, parameter in enumerate(effect.parameters):
         if parameter.n_scan:
@@ -140,9 +141,9 @@ def initial_guesses(problem: Problem, null_fit: Fit, draws: PriorDraws) -> tuple
     order = np.argsort(scores)[::-1]
     # Where an effect changes nothing its slope is zero.
     order = order[draws.visible[order]] if draws.testable else order
-    chosen = [order[0]]
+    chosen, most = [order[0]], STARTS + max(draws.z.shape[1] - STARTS_UP_TO, 0)
     for i in order[1:]:
-        if scores[i] < scores[order[0]] - START_WITHIN or len(chosen) == STARTS:
+        if scores[i] < scores[order[0]] - START_WITHIN or len(chosen) == most:
             break
         if all(np.max(np.abs(draws.z[i] - draws.z[k])) > STARTS_APART for k in chosen):
             chosen.append(i)

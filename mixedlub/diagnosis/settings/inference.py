@@ -86,16 +86,16 @@ STEP_LENGTHS = (1.0, 0.5, 0.25, 0.1, 0.0)
 """Grid. Lengths of a damped step, over the full one."""
 
 # Starting values
-PRIOR_DRAWS = (12, 24, 40, 56)
-"""Cost limit. Draws of the prior for one, two, three and more parameters."""
+PRIOR_DRAWS = 18
+"""Cost limit. Draws of the prior for each parameter of an effect."""
 PRIOR_TAIL = 0.02
 """Judgement. Share of the prior at either end from which no draw is taken: fits may still reach it."""
 START_WITHIN = 25.0
 """Judgement. Log evidence behind the best draw within which another one is a start: fits gain much over draws."""
 STARTS_APART = 1.2
 """Judgement. Least distance of two starts in prior standard deviations: nearer ones rarely lead elsewhere."""
-STARTS = 3
-"""Cost limit. Starts of a fit."""
+STARTS, STARTS_UP_TO = 3, 6
+"""Cost limit. Starts of a fit of so many parameters; one more for each further parameter."""
 FITTED_FIRST = 4
 """Cost limit. Most promising fits from which the rival of the others is taken."""
 SCANNED_TO = 3.0
@@ -128,7 +128,7 @@ HOPELESS_LAW = 15.0
 """Judgement. Log odds against a law from which it adds nothing: 3e-7."""
 
 # Pairs of effects
-PAIR_LEADERS = 8
+PAIR_LEADERS = 12
 """Cost limit. Best single effects with which pairs are formed; other pairs are found from their draws."""
-PAIRS = 30
+PAIRS = 45
 """Cost limit. Pairs that are fitted, by the weights of the single fits."""
