@@ -9,7 +9,7 @@ TYPICAL_FORCE = 3000.0
 """Tooth force (N) at which the amplitude is stated."""
 LEAST_LOAD = 0.1
 """Load over the typical one below which the relative added force stays as it is."""
-LEAST_LOAD_FACTOR = 0.1
+LEAST_LOAD_FACTOR = 0.05
 """Smallest share of the static force that is computed where vibration unloads the teeth."""
 
 
@@ -35,7 +35,7 @@ LEAST_LOAD_FACTOR = 0.1
             "-",
             Normal(0.0, 0.4),
             "response to the second mesh harmonic, at half the speed, relative to the first",
-            symbol="s",
+            symbol="b",
         ),
         Parameter(
             "fade",
@@ -57,7 +57,7 @@ LEAST_LOAD_FACTOR = 0.1
             "-",
             Uniform(0.0, 1.0),
             "0 as the phase of the vibration has it at each place, 1 the amplitude of the vibration",
-            symbol="e",
+            symbol="k",
             nominal=0.0,
         ),
         Parameter(
@@ -69,11 +69,11 @@ LEAST_LOAD_FACTOR = 0.1
             nominal=0.0,
         ),
     ),
-    equation=r"s_F \leftarrow s_F\max\left\{1 + ay^{-q}\,[R(r,\,w) + s\,R(2r,\,2w)],\ 0.1\right\},\quad "
+    equation=r"s \leftarrow s\max\left\{1 + ay^{-q}\,[R(1) + b\,R(2)],\ 0.05\right\},\quad "
     r"y = \max\left(\frac{F_t}{\text{3 kN}},\ 0.1\right),\quad "
-    r"r = \frac{z_1\omega_1}{2\pi f_n},\ w = 2\pi\epsilon_\alpha\xi + \phi,\quad "
-    r"R(x, v) = x^p\left[(1 - e)\,\frac{(1 - x^2)\,c + 2\zeta x\,d}{N^2} + e\,\frac{c}{N}\right],\quad "
-    r"N^2 = (1 - x^2)^2 + (2\zeta x)^2,\ c = (1 - m)\cos v + m,\ d = (1 - m)\sin v",
+    r"R(n) = (nr)^p\left[(1 - k)\,\frac{(1 - n^2r^2)\,c + 2\zeta nr\,d}{N^2} + k\,\frac{c}{N}\right],\quad "
+    r"r = \frac{z_1\omega_1}{2\pi f_n},\ N = \sqrt{(1 - n^2r^2)^2 + (2\zeta nr)^2},\quad "
+    r"c = (1 - m)\cos nw + m,\ d = (1 - m)\sin nw,\ w = 2\pi\epsilon_\alpha\xi + \phi",
     special_cases={"one mesh order": {"second": 0.0, "fade": 0.0}},
     source="one degree of freedom driven by the transmission error, steady state (H. N. Ozguven, D. R. Houser, J. "
     "Sound Vib. 125 (1988) 71); dynamic factors of ISO 6336-1, of which pitch errors cause a part that is the same "

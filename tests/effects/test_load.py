@@ -36,26 +36,49 @@ def test_misalignment_has_a_limit_for_a_coefficient_that_load_does_not_change() 
     assert np.log(found) == pytest.approx(limit, rel=1e-4)
 
 
+TEETH = {"pinion_teeth": 20.0, "path_fraction": np.linspace(0.0, 1.0, 9), "contact_ratio": 1.6}
+VIBRATION = {"amplitude": 0.02, "resonance": 800.0, "damping": 0.1, "second": 0.0, "power": 2.0, "fade": 0.0}
+WAVE, FACTOR = {"envelope": 0.0, "everywhere": 0.0}, {"envelope": 1.0, "everywhere": 1.0, "phase": 0.0}
+
+
 @pytest.mark.parametrize("ratio", [0.4, 0.95, 1.3])
 @pytest.mark.parametrize("phase", [-1.2, 0.0, 0.9])
-def test_dynamic_load_is_the_steady_vibration_where_the_teeth_slide(ratio: float, phase: float) -> None:
-    """Driven by cos(r t), the phase of the sliding being pi/2 - phase after the peak of the drive."""
-    damping = 0.1
+def test_dynamic_load_is_the_steady_vibration_that_the_transmission_error_drives(ratio: float, phase: float) -> None:
+    """Springs of the teeth between wheels that an error cos(w) holds apart, over their static deflection."""
 
-    def motion(t: float, state: np.ndarray) -> list[float]:
-        return [state[1], np.cos(ratio * t) - state[0] - 2.0 * damping * state[1]]
+    def motion(time: float, state: np.ndarray) -> list[float]:
+        return [state[1], ratio**2 * np.cos(ratio * time) - state[0] - 0.2 * state[1]]
 
-    moment = (np.pi / 2 - phase + 2.0 * np.pi * 30) / ratio
-    steady = integrate.solve_ivp(motion, (0.0, moment), [0.0, 0.0], rtol=1e-9, atol=1e-11).y[0, -1]
-    pair = {"amplitude": 0.02, "resonance": 1.0 / (2.0 * np.pi), "damping": damping, "phase": phase, "second": 0.0}
-    assert dynamic_load(1.0, ratio, 1.0, **pair, fade=0.0) == pytest.approx(1.0 + 0.02 * ratio * steady, abs=1e-6)
+    turn = 2.0 * np.pi * (30.0 + 1.6 * TEETH["path_fraction"]) + phase
+    steady = integrate.solve_ivp(
+        motion, (0.0, turn[-1] / ratio), [0.0, 0.0], t_eval=turn / ratio, rtol=1e-9, atol=1e-11
+    )
+    speed = 2.0 * np.pi * 800.0 * ratio / 20.0
+    found = dynamic_load(1.0, 3000.0, speed, **TEETH, **VIBRATION, **WAVE, phase=phase)
+    np.testing.assert_allclose(found, 1.0 + 0.02 * steady.y[0], atol=1e-6)
 
 
 def test_force_added_by_errors_of_the_teeth_is_the_same_at_any_load() -> None:
-    pair = {"amplitude": 0.02, "resonance": 800.0, "damping": 0.1, "phase": 0.3, "second": 0.2}
-    load = np.array([600.0, 3000.0, 9000.0])
-    added = dynamic_load(load, 200.0, 20.0, **pair, fade=1.0) - load
-    np.testing.assert_allclose(added, added[1])
+    load = np.array([[600.0], [3000.0], [9000.0]])
+    vibration = {**VIBRATION, "second": 0.2, "fade": 1.0}
+    added = load * (dynamic_load(1.0, load, 200.0, **TEETH, **vibration, **WAVE, phase=0.3) - 1.0)
+    np.testing.assert_allclose(added, added[[1, 1, 1]])
+
+
+@pytest.mark.parametrize(
+    ("factor", "power", "within"),
+    [
+        pytest.param(lambda speed: 0.01 * speed, 1.0, 1e-3, id="ISO 6336-1"),
+        pytest.param(lambda speed: ((65.1 + np.sqrt(200.0 * speed)) / 65.1) ** 0.731 - 1.0, 0.5, 0.05, id="AGMA 2001"),
+    ],
+)
+def test_far_below_resonance_it_is_a_published_dynamic_factor(factor, power: float, within: float) -> None:
+    """Of pitch-line speeds from 2 to 20 m/s; that of AGMA 2001 at a quality number of 7."""
+    speed = np.geomspace(2.0, 20.0, 7)[:, None]
+    slow = {**VIBRATION, "resonance": 1e6, "power": power}
+    added = dynamic_load(1.0, 3000.0, speed / 0.05, **TEETH, **slow, **FACTOR) - 1.0
+    scaled = added / added[3] * factor(speed)[3]
+    np.testing.assert_allclose(scaled, np.broadcast_to(factor(speed), scaled.shape), rtol=within)
 
 
 @pytest.mark.parametrize("relief", [5e-6, 30e-6])

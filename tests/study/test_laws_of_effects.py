@@ -79,7 +79,7 @@ def test_the_law_that_is_taken_is_told(write_study):
     assert "ISO/TR 14179-1" in told.text
 
 
-@pytest.mark.parametrize("name", ["roughness_lay", "dynamic_load", "boundary_speed_dependence"])
+@pytest.mark.parametrize("name", ["roughness_lay", "boundary_speed_dependence"])
 def test_an_effect_that_nothing_switches_on_says_so(name, write_study):
     study = read_study(write_study(effects={name: {}}))
     assert "effect_off" in codes(study.notes)

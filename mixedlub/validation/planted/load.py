@@ -108,6 +108,7 @@ EFFECTS = (
         (strength(0.0, 5.0, (0.7, 1.6)), Knob("resonance_rpm", 600.0, 6000.0, (1200.0, 3000.0))),
         "one-degree-of-freedom mesh resonance",
         rarity=0.5,
+        within=True,
     ),
     Form(
         "dynamic_load",
@@ -120,6 +121,7 @@ EFFECTS = (
         ),
         "two orders of the transmission error, Ozguven and Houser 1988",
         rarity=0.5,
+        within=True,
     ),
     Form(
         "dynamic_load",
