@@ -74,7 +74,10 @@ LEAST_LOAD_FACTOR = 0.05
     r"R(n) = (nr)^p\left[(1 - k)\,\frac{(1 - n^2r^2)\,c + 2\zeta nr\,d}{N^2} + k\,\frac{c}{N}\right],\quad "
     r"r = \frac{z_1\omega_1}{2\pi f_n},\ N = \sqrt{(1 - n^2r^2)^2 + (2\zeta nr)^2},\quad "
     r"c = (1 - m)\cos nw + m,\ d = (1 - m)\sin nw,\ w = 2\pi\epsilon_\alpha\xi + \phi",
-    special_cases={"one mesh order": {"second": 0.0, "fade": 0.0}},
+    special_cases={
+        "transmission error": {"fade": 0.0, "power": 2.0, "envelope": 0.0, "everywhere": 0.0},
+        "dynamic factor": {"second": 0.0, "envelope": 1.0, "everywhere": 1.0},
+    },
     source="one degree of freedom driven by the transmission error, steady state (H. N. Ozguven, D. R. Houser, J. "
     "Sound Vib. 125 (1988) 71); dynamic factors of ISO 6336-1, of which pitch errors cause a part that is the same "
     "force at any load, and of AGMA 2001",
