@@ -10,12 +10,10 @@ import numpy as np
 from mixedlub.chain.effect import STAGES
 from mixedlub.diagnosis.assessment.mismatch_test import Mismatch
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
-from mixedlub.diagnosis.inference.likelihood import lawless_gain
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.search.prior_odds import PriorOdds
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.assessment import FLOOR, TEST_MARGIN, TIE
-from mixedlub.diagnosis.settings.inference import LAWLESS_ODDS
 
 
 @dataclass(frozen=True)
@@ -63,15 +61,12 @@ def posterior(
 
     Explanations are ranked by their evidence less the ``penalties`` of cross-validation. Where this and the test
     disagree on nothing missing, its weight is moved just far enough to agree. Scatter beyond any noise that no
-    explanation follows, and more readings far from an explanation than outliers are, count as a discrepancy. Where even
-    the best effects are overdispersed on left-out levels, log odds between effects are divided by ``overdispersion``;
-    their odds against the other explanations stay.
+    explanation follows counts as a discrepancy. Where even the best effects are overdispersed on left-out levels, log
+    odds between effects are divided by ``overdispersion``; their odds against the other explanations stay.
     """
     log = dict(search.log_weights)
     for key, log_odds_penalty in (penalties or {}).items():
         log[key] -= log_odds_penalty
-    lawless = [log[m] - search.scores[m] + f.evidence + lawless_gain(f.residual) for m, f in search.fits.items()]
-    log[DISCREPANCY] = float(np.logaddexp(log[DISCREPANCY], np.log(LAWLESS_ODDS) + np.logaddexp.reduce(lawless)))
     names = [key for key in log if key.effects]
     if names and overdispersion > 1.0:
         relative = {k: search.scores[k] - (penalties or {}).get(k, 0.0) for k in names}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.diagnosis.settings.inference import LAWFUL_SHARES, LAWLESS_SHARES, OUTLIER_SHARE, OUTLIER_WIDTH
+from mixedlub.diagnosis.settings.inference import OUTLIER_SHARE, OUTLIER_WIDTH
 
 _LOG_IN = np.log1p(-OUTLIER_SHARE)
 _LOG_OUT = np.log(OUTLIER_SHARE / OUTLIER_WIDTH * np.sqrt(2.0 / np.pi))
@@ -37,21 +37,3 @@ def outlier_chance(residual: np.ndarray) -> np.ndarray:
     """
     inside, outside = _log_parts(residual)
     return np.exp(outside - np.logaddexp(inside, outside))
-
-
-def lawless_gain(residual: np.ndarray) -> float:
-    """Log Bayes factor of shares of wide errors at which no law holds, LAWLESS_SHARES, over those where one still does.
-
-    >>> some, many = np.zeros(100), np.zeros(100)
-    >>> some[:12], many[:35] = 30.0, 30.0
-    >>> [round(lawless_gain(one)) for one in (some, many)]
-    [-3, 25]
-    """
-    inside, outside = _log_parts(residual)
-
-    def mean_evidence(shares: tuple[float, ...]) -> float:
-        inner = inside[:, None] - _LOG_IN + np.log1p(-np.array(shares))
-        outer = outside[:, None] + np.log(np.array(shares) / OUTLIER_SHARE)
-        return float(np.logaddexp.reduce(np.logaddexp(inner, outer).sum(axis=0)) - np.log(len(shares)))
-
-    return mean_evidence(LAWLESS_SHARES) - mean_evidence(LAWFUL_SHARES)

@@ -40,10 +40,6 @@ OUTLIER_WIDTH = 10.0
 """Judgement. Half-width of the outlier distribution in standard deviations: clearly wider than noise."""
 OUTLIER_WEIGHT = 0.5
 """Judgement. Precision weight below which a reading is treated as an outlier: it has lost half of its weight."""
-LAWFUL_SHARES, LAWLESS_SHARES = (0.01, 0.05, 0.1), (0.25, 0.4)
-"""Judgement. Shares of outliers in recordings whose law holds, and shares so large that none of the laws holds."""
-LAWLESS_ODDS = 0.02
-"""Judgement. Prior odds of such a recording: one in fifty."""
 CLIPPED_AT = 3.0
 """Judgement. Robust standard deviations at which residuals are clipped, so that single outliers do not dominate."""
 HUBER_BOUND = 5.0
