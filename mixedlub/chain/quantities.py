@@ -35,6 +35,7 @@ moes_load               | M          | -       | Moes' load parameter of a line 
 slide_roll_ratio        | S          | -       | sliding speed over entrainment speed
 roll_angle              | theta      | rad     | pinion roll angle of the contact point
 path_fraction           | xi         | -       | place along the path of contact, 0 at its start and 1 at its end
+mesh_phase              | psi        | -       | base pitches since contact began; at one time equal up to integers
 contact_width           | b          | m       | width of the line contact, of one slice of the face where it is sliced
 face_width              | b_w        | m       | width of the tooth flank
 face_position           | y          | -       | place across the face, 0 to 1

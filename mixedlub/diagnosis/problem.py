@@ -155,11 +155,17 @@ class Problem:
         return self.transform(self.forward.predict(self.calibration(z)))
 
     def jacobian(
-        self, explanation: Explanation, z: np.ndarray, at: Run | None = None, near: np.ndarray | None = None
+        self,
+        explanation: Explanation,
+        z: np.ndarray,
+        at: Run | None = None,
+        near: np.ndarray | None = None,
+        corrections: bool = False,
     ) -> np.ndarray:
         """Derivative of predictions over sd with respect to z, by differences to the side where laws do not end.
 
-        Columns of small corrections to base laws are taken from a derivative ``near`` by: they hardly change.
+        Where there is a derivative ``near`` by, columns of small corrections to base laws are taken from it, as they
+        hardly change; if ``corrections``, all others are.
         """
         here = self.run(explanation, z) if at is None else at
         calibration, parameters = self.calibration(z), self.parameters(explanation, z)
@@ -168,7 +174,7 @@ class Problem:
         slopes = np.empty((self.y.size, z.size))
         small = {i for i, c in enumerate(self.forward.calibrations) if c.base_law}
         for i, (values, parameter) in enumerate(priors):
-            if near is not None and i in small:
+            if near is not None and (i in small) != corrections:
                 slopes[:, i] = near[:, i]
                 continue
             kept = values[parameter.name]

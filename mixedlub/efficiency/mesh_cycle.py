@@ -137,10 +137,10 @@ def _at_points(stage: StageModel, torque: float, speed: float, points: Mesh) -> 
             **whole,
             **mesh_inputs(points, share, own.reshape(1, 1, 1, 1, 1), turning.reshape(1, 1, 1, 1, 1)),
         }
-        model = Model(plan.chain(plan.options), tuple(inputs), LOCAL, plan.effects)
+        model = Model(plan.chain(plan.options), tuple(inputs), (*LOCAL, "load_share"), plan.effects)
         state = model(inputs, plan.parameters)
     friction, resistance = (np.broadcast_to(np.ravel(state[name]), points.position.shape) for name in LOCAL)
-    force = (share * inputs["transmitted_force"]).ravel()
+    force = np.broadcast_to(np.ravel(state["load_share"] * inputs["transmitted_force"]), points.position.shape)
     oblique = math.cos(stage.pair.base_helix_angle)
     normal = force / oblique
     power = normal * inputs["sliding_speed"].ravel()

@@ -10,6 +10,7 @@ from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Parameters, available
 from mixedlub.effects import LAW, find, known_effects, known_in
 from mixedlub.schema.findings import finding, report
+from mixedlub.slots import SLIDING_POWER
 from mixedlub.study.heat import check_exponent
 from mixedlub.study.options import study_chain
 from mixedlub.study.schema import Options, StudyFile
@@ -34,13 +35,18 @@ def chosen_effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Ef
 
 
 def _refuse_ignored(e: Effect, options: Options) -> None:
-    """Refuse an effect on the contact area alone where asperities carry load by a law that does not know of it."""
+    """Refuse an effect that the chosen laws would see in part only."""
     default = Options()
     changed = [
         f'{name} = "{getattr(default, name)}"'
         for name in AREA_ALONE
         if getattr(options, name) != getattr(default, name)
     ]
+    if "load_share" in e.acts_on and options.averaging != SLIDING_POWER.default:
+        rule = (
+            f"moves load between points of the path, which {options.averaging!r} averages do not see; needs averaging"
+        )
+        raise InputError(f'{rule} = "{SLIDING_POWER.default}"', where=f"effects.{e.id}")
     if "area_ratio" in e.acts_on and changed:
         rule = f"changes the contact area and not the load of the asperities; it needs {' and '.join(changed)}"
         other = '; for asperities that yield, asperities = "chang_etsion_bogy" has the same law with its load'

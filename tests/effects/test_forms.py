@@ -129,9 +129,9 @@ def test_presliding_keeps_to_the_stiffness_of_dahl(exponent: float) -> None:
 
 def test_the_second_harmonic_meets_the_resonance_at_half_the_speed() -> None:
     at = {"amplitude": 0.02, "resonance": 1.0 / (2.0 * np.pi), "damping": 0.05, "power": 1.0, "fade": 0.0}
-    teeth = {"transmitted_force": 3000.0, "pinion_teeth": 1.0, "path_fraction": 0.5, "contact_ratio": 1.6}
+    teeth = {"transmitted_force": 3000.0, "pinion_teeth": 1.0, "mesh_phase": 0.5}
     ratio = np.linspace(0.3, 1.4, 1101)
-    found = dynamic_load(1.0, pinion_speed=ratio, **teeth, **at, phase=0.0, second=0.5, envelope=1.0, everywhere=1.0)
+    found = dynamic_load(1.0, pinion_speed=ratio, **teeth, **at, phase=0.0, second=0.5, in_phase=1.0, everywhere=1.0)
     peaks = ratio[1:-1][(found[1:-1] > found[:-2]) & (found[1:-1] > found[2:])]
     np.testing.assert_allclose(peaks, [0.5, 1.0], atol=0.01)
 

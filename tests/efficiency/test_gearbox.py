@@ -178,6 +178,15 @@ class TestMeshCycle:
         assert cycle.rolling.mean() == pytest.approx(at.total(origins=("rolling",))[0], rel=2e-3)
         assert cycle.efficiency.mean() == pytest.approx(at.efficiency(MESH)[0], abs=2e-5)
 
+    @pytest.mark.parametrize("everywhere", [0.0, 1.0])
+    def test_it_has_the_force_that_vibration_adds(self, folder: Path, everywhere: float) -> None:
+        shaken = {"amplitude": 0.05, "resonance": 900.0, "damping": 0.1, "phase": 0.5, "second": 0.3, "power": 2.0}
+        shaken |= {"fade": 0.0, "in_phase": everywhere, "everywhere": everywhere}
+        box = gearbox(folder, STAGE | {"effects": {"dynamic_load": shaken}}, cycle={"positions": 400})
+        at = box.at_cycle()
+        (cycle,) = mesh_cycles(box, at)
+        assert cycle.sliding.mean() == pytest.approx(at.total(origins=("sliding",))[0], rel=5e-3)
+
     def test_of_a_helical_pair_it_has_no_steps(self, folder: Path) -> None:
         """Oblique lines come into contact slice by slice; a spur tooth takes its load at once."""
         steps = {}

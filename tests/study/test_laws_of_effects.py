@@ -157,3 +157,8 @@ def test_every_physical_effect_on_gears_without_an_order_of_readings_runs(write_
         if e.stage != "measurement" and "sequence" not in e.reads and (not e.kinds or "gear_pair" in e.kinds):
             found = run_study(read_study(write_study(surfaces={"a": coated}, effects={e.id: {}})))
             assert np.isfinite(found["power_loss"]).all(), e.id
+
+
+def test_load_that_moves_along_the_path_is_refused_by_averages_that_do_not_see_it(write_study):
+    with pytest.raises(InputError, match=r'effects\.tip_relief.*averaging = "mesh_integral"'):
+        read_study(write_study(effects={"tip_relief": {"relief": 1e-5}}, options={"averaging": "paper"}))

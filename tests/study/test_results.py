@@ -248,7 +248,7 @@ def test_every_column_has_one_meaning_and_a_unit(results):
 def test_friction_of_one_pairing_follows_an_effect_on_its_load(write_study):
     """A uniform factor on the force leaves the mesh's coefficient where the load itself puts it."""
     force = {"amplitude": 0.1, "resonance": 850.0, "damping": 0.1, "phase": 0.0, "second": 0.0, "power": 2.0}
-    force |= {"envelope": 1.0, "everywhere": 1.0}
+    force |= {"in_phase": 1.0, "everywhere": 1.0}
     one = {"every": ["mid"]}
     many = run_study(read_study(write_study("many", effects={"dynamic_load": force})))
     alone = run_study(read_study(write_study("alone", effects={"dynamic_load": force}, pairings=one)))

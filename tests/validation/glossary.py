@@ -120,6 +120,7 @@ def _of_gears(c: Contact) -> Values:
         "load_share": c.force / whole,
         "contact_ratio": extras["contact_ratio"],
         "path_fraction": c.rig.phase / extras["contact_ratio"],
+        "mesh_phase": c.rig.phase,
         "ambient_temperature": extras["ambient"] + KELVIN,
         "largest_torque": 1.0,
     }

@@ -118,7 +118,7 @@ LIMITS: dict[str, tuple[dict[str, float], ...]] = {
     "stribeck": tuple({"exponent": n, "speed_share": v} for n in (1.0, 2.0) for v in (0.03, 0.1)),
     "starvation": ({"onset": 0.05, "steepness": 4.0},),
     "dynamic_load": tuple(
-        {"power": 2.0, "fade": 0.0, "phase": 0.0, "everywhere": 0.0, "envelope": k, "damping": z}
+        {"power": 2.0, "fade": 0.0, "phase": 0.0, "everywhere": 0.0, "in_phase": k, "damping": z}
         for k, z in ((1.0, 0.1), (0.0, 0.07))
     ),
     "viscosity_temperature_law": tuple({"share": 1.0, "fall": 1.0, "convexity": m} for m in (1.0, 2.0, 2.5)),

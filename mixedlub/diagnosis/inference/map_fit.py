@@ -212,13 +212,14 @@ def _laplace_fit(
     state = _gauss_newton(
         problem, explanation, state, log_likelihood, tolerance=tolerance, rival=rival, hopeless=hopeless
     )
-    columns = np.hstack([state.slopes, problem.shared])
+    slopes = problem.jacobian(explanation, state.z, state.run, state.slopes, corrections=True)
+    columns = np.hstack([slopes, problem.shared])
     curvature = np.eye(columns.shape[1]) + columns.T @ (columns * state.weight[:, None])
     evidence = -state.cost - 0.5 * float(np.linalg.slogdet(curvature)[1])
     prediction = state.run.prediction
     common = problem.shared @ state.shared
     residual = (problem.y - prediction) / problem.sd - common
-    return Fit(explanation, state.z, prediction, residual, common, state.slopes, state.weight, evidence)
+    return Fit(explanation, state.z, prediction, residual, common, slopes, state.weight, evidence)
 
 
 def damped_update(

@@ -67,7 +67,7 @@ PREFIT_TOLERANCE = 0.5
 FIT_TOLERANCE = 2e-3
 """Judgement. Gain in log probability below which a fit ends: invisible in any odds."""
 NESTED_TOLERANCE = 0.05
-"""Judgement. The same for a fit of published laws, whose log odds are averaged: a twentieth of a nat."""
+"""Judgement. The same where published laws only change the odds of an explanation."""
 SAME_FIT_WITHIN = 0.1
 """Judgement. Prior standard deviations within which two prefits lead to the same result."""
 HOPELESS_BEHIND = 60.0
@@ -91,7 +91,7 @@ START_WITHIN = 25.0
 STARTS_APART = 1.2
 """Judgement. Least distance of two starts in prior standard deviations: nearer ones rarely lead elsewhere."""
 STARTS, STARTS_UP_TO = 3, 6
-"""Cost limit. Starts of a fit of so many parameters; one more for each further parameter."""
+"""Cost limit. Starts of a fit of an effect of up to so many parameters; one more for each parameter beyond."""
 FITTED_FIRST = 4
 """Cost limit. Most promising fits from which the rival of the others is taken."""
 SCANNED_TO = 3.0
