@@ -41,8 +41,7 @@ class Contained:
     @property
     def _odds(self) -> str:
         size = abs(self.log_odds)
-        digits = 2 if size < math.log(100.0) else 4
-        shown = f"{math.exp(size):.{digits}g}" if size < math.log(1e4) else f"1e{size / math.log(10.0):.0f}"
+        shown = f"{float(f'{math.exp(size):.2g}'):g}" if size < math.log(1e4) else f"1e{size / math.log(10.0):.0f}"
         return f"{shown} : 1" if self.log_odds > 0.0 else f"1 : {shown}"
 
 
