@@ -98,6 +98,7 @@ def contact_creep(
     >>> contact_creep(0.05, 0.1, 0.2, S, 1e9, **creep, of_asperities=0.0).round(5).tolist()   # 0.1 x 0.2 stays
     [0.02, 0.04625, 0.05]
     """
-    slides = saturation_slip * ((friction / REFERENCE_FRICTION) * (hertz_pressure / REFERENCE_PRESSURE)) ** elastic
+    pressed = np.maximum(friction, 0.0) / REFERENCE_FRICTION * (hertz_pressure / REFERENCE_PRESSURE)
+    slides = saturation_slip * pressed**elastic
     sticking = np.maximum(slides - slide_roll_ratio, 0.0) / np.maximum(slides, 1e-12)
     return friction - (friction - (1.0 - of_asperities) * boundary_friction * area_ratio) * sticking**power
