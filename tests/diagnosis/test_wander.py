@@ -43,7 +43,7 @@ def wandering(tmp_path_factory):
 def test_wandering_noise_is_no_event(tmp_path, seed):
     d = answer_to(tmp_path, 0.1 * (1.0 + wandering_noise(seed, 0.9, 0.01)))
     assert d.posterior.verdict in (NOTHING, DISCREPANCY)
-    assert {"residuals_drift", "residuals_autocorrelated"} & set(codes(d.warnings))
+    assert {"residuals_drift", "residuals_autocorrelated", "scatter_above_stated"} & set(codes(d.warnings))
 
 
 def test_noise_that_is_seen_to_wander_is_told_as_that(wandering):
