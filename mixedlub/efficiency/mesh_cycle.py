@@ -89,7 +89,7 @@ def mesh_cycle(stage: StageModel, torque: float, speed: float, positions: int) -
     every = every.reshape(len(found), -1, positions, slices).sum(axis=1)
     phase = (np.arange(positions) + 0.5) / positions
     # Slices of a helical pair follow the front of the face by whole and broken parts of a base pitch.
-    lag = points.face_position[:slices] * math.tan(abs(pair.base_helix_angle)) / pair.base_pitch
+    lag = points.lag[:slices]
     total = np.zeros((len(found), positions))
     for index in range(slices):
         for one in range(len(found)):

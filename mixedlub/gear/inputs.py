@@ -28,8 +28,7 @@ def motion_inputs(points: Mesh, torque: np.ndarray, speed: np.ndarray) -> Inputs
         "roll_angle": points.roll_angle,
         "path_fraction": (points.position - low) / (high - low),
         "face_position": points.face_position / pair.face_width,
-        "mesh_phase": (points.position - low - points.face_position * np.tan(abs(pair.base_helix_angle)))
-        / pair.base_pitch,
+        "mesh_phase": (points.position - low) / pair.base_pitch - points.lag,
         "path_weight": points.weight,
         "torque": torque,
         "pinion_speed": speed,

@@ -75,6 +75,11 @@ class Mesh:
         """Width (m) of the contact that each point stands for, and that its share of the load rests on: one slice."""
         return self.face_fraction * self.pair.face_width
 
+    @property
+    def lag(self) -> np.ndarray:
+        """Base pitches by which each slice follows the front of the face: that of a helical pair comes first."""
+        return self.face_position * np.tan(abs(self.pair.base_helix_angle)) / self.pair.base_pitch
+
     def load_share(self, torque: object) -> np.ndarray:
         """Share of T1/r_b1 that each point's slice carries, shape ``torque.shape + (M,)``; torque in N m.
 

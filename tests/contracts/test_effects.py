@@ -28,7 +28,7 @@ PHYSICAL = {
     "boundary_friction": (0.0, 1.0),
     "shear_stress": (0.0, 1e9),
     "friction": (0.0, 1.0),
-    "load_share": (0.0, 2.5),
+    "load_share": (0.0, 1.6),
     "line_load": (0.0, 1e8),
     "transmitted_force": (0.0, 1e6),
     "m0": (0.0, 1e-10),
