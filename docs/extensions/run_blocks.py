@@ -192,6 +192,7 @@ class Picture(Figure, _InPage):
 
 
 def _open(app: Sphinx) -> None:
+    # Sphinx declares no attributes of extensions.
     app.page_folders = TemporaryDirectory(prefix="pages-")  # type: ignore[attr-defined]
 
 

@@ -148,6 +148,7 @@ def _film_law(separation: Law, asperity_pressure: Law) -> Law:
         return balanced_film(state["full_load_film"], pressure, float(state["sharing_exponent"]), carried)
 
     kind = inspect.Parameter.POSITIONAL_OR_KEYWORD
+    # A function may state its signature, which its type does not declare.
     film_thickness.__signature__ = inspect.Signature([inspect.Parameter(n, kind) for n in names])  # type: ignore[attr-defined]
     film_thickness.__doc__ = JOHNSON_GREENWOOD_POON
     return film_thickness

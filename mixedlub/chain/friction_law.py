@@ -79,6 +79,7 @@ class FrictionLaw(Documented):
         fixed.__doc__, fixed.__name__ = law.__doc__, self.name
         own = inspect.signature(law)
         kept = [a for a in own.parameters.values() if a.kind is not a.KEYWORD_ONLY]
+        # A function may state its signature, which its type does not declare.
         fixed.__signature__ = own.replace(parameters=kept)  # type: ignore[attr-defined]
         return fixed
 

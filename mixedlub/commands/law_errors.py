@@ -61,7 +61,7 @@ def command(
             raise InputError("is for oils that are solved; name them", where=option, value=value)
     with collected() as notes, input_errors_from(NAME):
         given = None if oil else kept.read_solutions(kept.KEPT if solutions is None else solutions)
-        of = kept.oils(oil or list(given["oil"].unique()))  # type: ignore[index]
+        of = kept.oils(oil or [] if given is None else list(given["oil"].unique()))
     print_findings(notes)
     folder = output_folder(out, NAME, "_".join(Path(name).stem for name in oil or ["kept"]))
     if given is None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any, TypeVar
 
 import numpy as np
@@ -11,6 +11,7 @@ import numpy as np
 Own = TypeVar("Own", bound="Batch")
 
 
+@dataclass(frozen=True)
 class Batch:
     """Base of dataclasses whose fields are arrays over contacts, or such dataclasses."""
 
@@ -20,7 +21,7 @@ class Batch:
 
     def put(self: Own, index: np.ndarray, values: Own) -> None:
         """Overwrite the contacts of an index, in place."""
-        for field in fields(self):  # type: ignore[arg-type]
+        for field in fields(self):
             own, new = getattr(self, field.name), getattr(values, field.name)
             if isinstance(own, Batch):
                 own.put(index, new)
@@ -30,7 +31,7 @@ class Batch:
     def mapped(self: Own, change: Callable[[np.ndarray], np.ndarray]) -> Own:
         """The same with every array changed."""
         changed: dict[str, Any] = {}
-        for field in fields(self):  # type: ignore[arg-type]
+        for field in fields(self):
             value = getattr(self, field.name)
             changed[field.name] = value.mapped(change) if isinstance(value, Batch) else change(value)
-        return replace(self, **changed)  # type: ignore[type-var]
+        return replace(self, **changed)

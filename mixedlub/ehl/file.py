@@ -107,6 +107,7 @@ class AsperitySection(Section):
     m0_um2: Positive = key("variance of the heights of both surfaces", example=0.137)
     m2: Positive = key("variance of their slopes", example=0.0031)
     m4_per_um2: Positive = key("variance of their curvatures", example=0.0021)
+    # The laws are those of a table, which a type checker does not evaluate.
     law: Literal[LAWS] = key(  # type: ignore[valid-type]
         "law of the asperities", LAWS[0], values={name: ASPERITY_LOAD.choices[name].meaning for name in LAWS}
     )

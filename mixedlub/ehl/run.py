@@ -52,6 +52,7 @@ def run_parts(
         if keep is not None:
             keep.mkdir(parents=True, exist_ok=True)
             with whole(_file(keep, place)) as aside, aside.open("wb") as file:
+                # Its types take the arrays for the flag beside them.
                 np.savez(file, **rows)  # type: ignore[arg-type]
         progress(len(found), len(parts))
     return {name: np.concatenate([found[place][name] for place in range(len(parts))]) for name in found[0]}
@@ -102,7 +103,7 @@ def parts_folder(out: Path, oil: Oil, contacts: Contacts, *, thermal: bool) -> P
 
 
 def _of_batch(batch: Batch) -> Iterator[np.ndarray]:
-    for field in fields(batch):  # type: ignore[arg-type]
+    for field in fields(batch):
         own: Any = getattr(batch, field.name)
         yield from _of_batch(own) if isinstance(own, Batch) else (own,)
 
