@@ -5,7 +5,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent / "extensions"))
 
-from mixedlub.version import installed_version
+from mixedlub.running.version import installed_version
 
 project = "mixedlub"
 author = "The mixedlub authors"

@@ -13,7 +13,6 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import typer
 
-from mixedlub.atomic import PARTS
 from mixedlub.commands import (
     check,
     condense,
@@ -48,6 +47,7 @@ from mixedlub.commands.console import (
     resume_hint,
     save_traceback,
 )
+from mixedlub.running.atomic import PARTS
 from mixedlub.schema.findings import FindingWarning
 from mixedlub.schema.messages import of_option
 from profiles.errors import InputError, RunError, nearest
@@ -93,7 +93,7 @@ app = typer.Typer(
 
 def _say_version(wanted: bool) -> None:
     if wanted:
-        from mixedlub.version import installed_version
+        from mixedlub.running.version import installed_version
 
         echo(f"mixedlub {installed_version()}")
         raise typer.Exit

@@ -6,8 +6,8 @@ from concurrent.futures.process import BrokenProcessPool
 
 import pytest
 
-from mixedlub import parallel
-from mixedlub.parallel import shared_out
+from mixedlub.running import parallel
+from mixedlub.running.parallel import shared_out
 
 
 def test_results_keep_the_order_of_the_items(monkeypatch: pytest.MonkeyPatch) -> None:

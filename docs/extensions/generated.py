@@ -66,7 +66,7 @@ def pieces() -> dict[str, str]:
         "friction_laws": _friction_laws(),
         "oils": _oils(),
         "oil_keys": _oil_keys(),
-        "gear_keys": _file_keys("mixedlub.tooth_contact.file", "GearAnalysisFile"),
+        "gear_keys": _file_keys("mixedlub.gear.analysis.file", "GearAnalysisFile"),
         "efficiency_keys": _file_keys("mixedlub.efficiency.file", "EfficiencyFile"),
         "part_laws": _part_laws(),
         "presets": _presets(),

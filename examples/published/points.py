@@ -17,9 +17,9 @@ from mixedlub.case.forward import Forward
 from mixedlub.chain.model import Model
 from mixedlub.effects import find
 from mixedlub.gear import RigidSharing, at_roll_angle, local_loss_factor, mesh
+from mixedlub.gear.build import gear_pair, sharing
 from mixedlub.laws import heating
 from mixedlub.laws.contact import line_hertz_pressure
-from mixedlub.rig.build import gear_pair, sharing
 from mixedlub.schema import toml_file
 from mixedlub.schema.system_file import Gears
 from mixedlub.schema.table import Table

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mixedlub.gear.analysis import MeshConditions, tooth_contact
+from mixedlub.gear.build import gear_pair, sharing
 from mixedlub.gear.checks import torques_above_zero
-from mixedlub.rig.build import gear_pair, sharing
 from mixedlub.schema.findings import collected, warn_of
 from mixedlub.schema.system_file import Gears
-from mixedlub.tooth_contact import MeshConditions, tooth_contact
 from profiles.errors import InputError
 
 if TYPE_CHECKING:

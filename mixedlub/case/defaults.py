@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mixedlub.gear.build import gear_pair
 from mixedlub.kinds import kind as kind_of
 from mixedlub.rig import build
 from mixedlub.schema import system_file
@@ -31,7 +32,7 @@ def gears_taken(section: system_file.Gears) -> dict[str, str]:
     >>> gears_taken(pair)["tip_diameter_mm"], gears_taken(pair)["load_sharing"]
     ('[76, 112], standard addendum', 'rigid: the pairs in contact share equally')
     """
-    pair = build.gear_pair(section)
+    pair = gear_pair(section)
     made = {
         "tip_diameter_mm": f"{_shown([2e3 * r for r in pair.tip_radii])}, standard addendum",
         "centre_distance_mm": f"{_shown(1e3 * pair.working_centre_distance)}, from the profile shift",

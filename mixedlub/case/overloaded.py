@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.case.forward import Forward
-from mixedlub.chain.balance import overloaded
+from mixedlub.laws.balanced import overloaded
 from mixedlub.laws.contact import asperity_load_ratio, mean_hertz_pressure
 from mixedlub.laws.load import carries_load
 from mixedlub.schema.findings import Finding, Severity, finding

@@ -7,10 +7,10 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.atomic import clear_parts, writing
 from mixedlub.commands.console import echo, input_errors_from, output_folder, print_findings
 from mixedlub.commands.figure_options import FiguresOrTables, Formats, chosen_formats
 from mixedlub.commands.study import Scheduler, progress_bar, resumed
+from mixedlub.running.atomic import clear_parts, writing
 
 NAME = "condense"
 EXAMPLE = "mixedlub condense atf --solutions 150"
@@ -34,14 +34,14 @@ def command(
     fitted to, residual plots, and the published law beside it. The file of the law is for `[options]` of a study. An
     interrupted run resumes when it is started again.
     """
-    from mixedlub.condensed.law_file import against_published, law_file
-    from mixedlub.condensed.points import draw, properties_of, solved_table
-    from mixedlub.condensed.regression import regression
     from mixedlub.ehl.solve import Way
-    from mixedlub.law_errors.solutions import oils
     from mixedlub.report.condensed import figures as drawn
     from mixedlub.report.style import save_all
     from mixedlub.schema.findings import collected
+    from mixedlub.solutions.condensed_points import draw, properties_of, solved_table
+    from mixedlub.solutions.kept import oils
+    from mixedlub.solutions.law_file import against_published, law_file
+    from mixedlub.solutions.regression import regression
 
     formats = chosen_formats(format_)
     with collected() as notes, input_errors_from(NAME):

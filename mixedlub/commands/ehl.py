@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from mixedlub.atomic import clear_parts, writing
 from mixedlub.commands.console import echo, input_errors_from, note, output_folder, print_findings
 from mixedlub.commands.figure_options import FiguresOrTables, Formats, chosen_formats
 from mixedlub.commands.study import Scheduler, progress_bar, resumed
+from mixedlub.running.atomic import clear_parts, writing
 
 if TYPE_CHECKING:
     import pandas as pd

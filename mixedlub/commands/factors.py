@@ -8,10 +8,10 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.atomic import clear_parts, writing
 from mixedlub.commands.console import echo, input_errors_from, named_folder, note, output_folder, print_findings
 from mixedlub.commands.figure_options import Formats, chosen_formats
 from mixedlub.commands.study import progress_bar, resumed
+from mixedlub.running.atomic import clear_parts, writing
 
 NAME = "factors"
 EXAMPLE = "mixedlub new factors --out my_factors && mixedlub factors my_factors/factors.toml"

@@ -7,9 +7,9 @@ from typing import Annotated, Any
 
 import typer
 
-from mixedlub.atomic import writing
 from mixedlub.commands.console import busy, echo, input_errors_from, note, output_folder, print_findings
 from mixedlub.commands.figure_options import Formats, chosen_formats
+from mixedlub.running.atomic import writing
 from profiles.errors import InputError
 
 NAME = "friction-laws"

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from mixedlub.atomic import writing
 from mixedlub.commands.console import busy, echo, input_errors_from, note, output_folder
 from mixedlub.commands.figure_options import FiguresOrTables, Formats, chosen_formats
+from mixedlub.running.atomic import writing
 
 if TYPE_CHECKING:
     import pandas as pd
 
-    from mixedlub.tooth_contact import ToothContact
+    from mixedlub.gear.analysis import ToothContact
 
 NAME = "gear"
 EXAMPLE = "mixedlub new gear --out my_gears && mixedlub gear my_gears/gear.toml"
@@ -36,10 +36,10 @@ def command(
     reads), line_loads.csv, transmission_error.csv, loss_factors.csv, geometry.csv and figures.
     """
     from mixedlub.gear import iso_stiffness
+    from mixedlub.gear.analysis import table as tables
+    from mixedlub.gear.analysis import tooth_contact
+    from mixedlub.gear.analysis.file import read_problem
     from mixedlub.schema.findings import collected
-    from mixedlub.tooth_contact import table as tables
-    from mixedlub.tooth_contact import tooth_contact
-    from mixedlub.tooth_contact.file import read_problem
 
     formats = chosen_formats(format_)
     with input_errors_from(str(file)):

@@ -7,10 +7,10 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.atomic import clear_parts, writing
 from mixedlub.commands.console import echo, input_errors_from, note, output_folder, print_findings
 from mixedlub.commands.figure_options import FiguresOrTables, Formats, chosen_formats
 from mixedlub.commands.study import Scheduler, progress_bar
+from mixedlub.running.atomic import clear_parts, writing
 from profiles.errors import InputError
 
 NAME = "law-errors"
@@ -46,12 +46,11 @@ def command(
     run resumes when it is started again.
     """
     from mixedlub.ehl.solve import Way
-    from mixedlub.law_errors import fits, ratios
-    from mixedlub.law_errors import solutions as kept
     from mixedlub.report.law_errors import figures as drawn
     from mixedlub.report.law_errors import fit_lines, law_lines
     from mixedlub.report.style import save_all
     from mixedlub.schema.findings import collected
+    from mixedlub.solutions import fits, kept, ratios
 
     formats = chosen_formats(format_)
     if oil and solutions is not None:

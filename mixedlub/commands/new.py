@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from mixedlub.atomic import writing
 from mixedlub.commands.console import echo, named_folder, output_folder
+from mixedlub.running.atomic import writing
 from profiles.errors import InputError, nearest
 
 if TYPE_CHECKING:
@@ -133,8 +133,8 @@ def ehl_files() -> dict[str, str]:
 
 def gear_files() -> dict[str, str]:
     """A file of gears, with a relieved pair of elastic teeth."""
+    from mixedlub.gear.analysis.file import GearAnalysisFile, Load
     from mixedlub.schema.section import examples
-    from mixedlub.tooth_contact.file import GearAnalysisFile, Load
 
     given = {
         "schema": "mixedlub-gear/1",

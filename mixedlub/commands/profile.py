@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from mixedlub.atomic import writing
 from mixedlub.chain.effect import entry
 from mixedlub.commands.console import echo, named_folder, note, output_folder
+from mixedlub.running.atomic import writing
 from profiles.errors import InputError
 
 if TYPE_CHECKING:

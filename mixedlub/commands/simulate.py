@@ -7,7 +7,6 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.atomic import writing
 from mixedlub.commands.console import (
     CONDITIONS,
     case_folder,
@@ -17,6 +16,7 @@ from mixedlub.commands.console import (
     output_folder,
     print_findings,
 )
+from mixedlub.running.atomic import writing
 
 NAME = "simulate"
 EXAMPLE = "mixedlub new case --out my_case && mixedlub simulate my_case"

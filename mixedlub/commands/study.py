@@ -10,9 +10,9 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.atomic import clear_parts, writing
 from mixedlub.commands.console import busy, echo, input_errors_from, named_folder, note, output_folder, print_findings
 from mixedlub.commands.figure_options import Formats, chosen_formats
+from mixedlub.running.atomic import clear_parts, writing
 from profiles.errors import InputError
 
 NAME = "study"

@@ -10,7 +10,7 @@ from types import MappingProxyType
 
 from mixedlub.chain.effect import REGISTRY, STAGES, Effect
 from mixedlub.chain.model import Chain, available
-from mixedlub.discovery import loaded
+from mixedlub.schema.discovery import loaded
 from profiles.errors import InputError, nearest
 
 

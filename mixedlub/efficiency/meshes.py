@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from mixedlub.chain.model import Model
+from mixedlub.chain.slots import SLOTS
 from mixedlub.gear import LdpSharing
-from mixedlub.slots import SLOTS
 from mixedlub.study import Study, batch
 from mixedlub.study.heat import LOSS, heat_inputs
 from mixedlub.study.pieces import split

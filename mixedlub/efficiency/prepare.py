@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 from mixedlub.chain.effect import Effect
+from mixedlub.chain.slots import SLIDING_POWER
 from mixedlub.efficiency.file import EfficiencyFile, Stage
 from mixedlub.efficiency.gearbox import Gearbox, StageModel
 from mixedlub.efficiency.parts import check_name, oil_state, parts_of
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.schema.findings import Finding
 from mixedlub.schema.toml_file import parse, read_toml
-from mixedlub.slots import SLIDING_POWER
 from mixedlub.study import Study, read_study
 from mixedlub.study.origins import losing
 from mixedlub.study.schema import Options, Pairings, StudyFile

@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from mixedlub.atomic import PARTS, whole
-from mixedlub.cluster import on_cluster
 from mixedlub.ehl.batch import Batch
 from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.oil.oil import Oil
-from mixedlub.origin import code_fingerprint
-from mixedlub.parallel import as_done
+from mixedlub.running.atomic import PARTS, whole
+from mixedlub.running.cluster import on_cluster
+from mixedlub.running.origin import code_fingerprint
+from mixedlub.running.parallel import as_done
 
 BATCH = 16
 """Contacts that are solved together: more of them fill no processor better, and their matrices leave its cache."""

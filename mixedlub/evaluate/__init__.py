@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from mixedlub.discovery import declared
 from mixedlub.evaluate.evaluation import Evaluated, Evaluation
+from mixedlub.schema.discovery import declared
 from mixedlub.schema.toml_file import keys_of, parse, read_toml
 from profiles.errors import InputError, nearest
 

@@ -12,7 +12,6 @@ from pydantic import Field, field_validator
 
 from mixedlub import friction
 from mixedlub.chain.documented import check_given
-from mixedlub.condensed.law_file import friction_file
 from mixedlub.evaluate.evaluation import (
     BEYOND_VISCOSITY,
     Curve,
@@ -35,6 +34,7 @@ from mixedlub.schema.surface_file import SurfaceSection
 from mixedlub.schema.system_file import Gears, Lubricant, RigFile
 from mixedlub.schema.table import RUN, Column, Table, read_table
 from mixedlub.schema.toml_file import named_file
+from mixedlub.solutions.law_file import friction_file
 from profiles.errors import InputError, nearest
 
 SOURCE = (

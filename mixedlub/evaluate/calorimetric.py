@@ -17,10 +17,11 @@ from mixedlub.evaluate.load_stages import LoadStages, Split, split_loss
 from mixedlub.evaluate.outlying import check_lines
 from mixedlub.evaluate.uncertainty import Errors, combined, ends_of, interval
 from mixedlub.gear import GearPair, Sharing, local_loss_factor, mesh
+from mixedlub.gear.build import gear_pair, sharing
 from mixedlub.kinds import columns
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.recording.set_points import near_values
-from mixedlub.rig.build import gear_pair, lubricant, sharing
+from mixedlub.rig.build import lubricant
 from mixedlub.schema.findings import collected
 from mixedlub.schema.section import Number, Section, key
 from mixedlub.schema.system_file import Gears, Lubricant, RigFile

@@ -18,7 +18,7 @@ from mixedlub.evaluate.mesh_recording import MeshRecording, SpurGearFile, mesh_f
 from mixedlub.evaluate.outlying import check_turns
 from mixedlub.evaluate.synchronous import Average, cycle_average, few_turns
 from mixedlub.evaluate.uncertainty import ends_of, interval
-from mixedlub.rig.build import gear_pair, sharing
+from mixedlub.gear.build import gear_pair, sharing
 from mixedlub.schema.findings import collected
 from mixedlub.schema.section import Number, Section, Whole, key
 from mixedlub.schema.table import Column, Table, read_table

@@ -11,16 +11,6 @@ import numpy as np
 import pandas as pd
 from scipy.stats import norm
 
-from mixedlub.condensed.law_file import friction_file
-from mixedlub.condensed.regression import Regression, design_of
-from mixedlub.condensed.stepwise import (
-    FEWEST,
-    PER_TERM,
-    is_determined,
-    least_squares,
-    measured_regression,
-    varied,
-)
 from mixedlub.evaluate.evaluation import BEYOND_VISCOSITY, Curve, Evaluated, Evaluation, Panel, file_name
 from mixedlub.evaluate.two_disc import hertz
 from mixedlub.friction.condensed import INPUTS, OIL
@@ -34,6 +24,16 @@ from mixedlub.schema.section import Section, Whole, key
 from mixedlub.schema.system_file import Contact, Lubricant, RigFile
 from mixedlub.schema.table import RUN, Column, Table, read_table
 from mixedlub.schema.toml_file import named_file
+from mixedlub.solutions.law_file import friction_file
+from mixedlub.solutions.regression import Regression, design_of
+from mixedlub.solutions.stepwise import (
+    FEWEST,
+    PER_TERM,
+    is_determined,
+    least_squares,
+    measured_regression,
+    varied,
+)
 from profiles.errors import InputError
 
 SOURCE = "H. Xu, PhD thesis, Ohio State University, 2005, chapter 3"

@@ -29,7 +29,7 @@ from mixedlub.evaluate.tooth_forces import (
 )
 from mixedlub.evaluate.uncertainty import combined, ends_of, interval
 from mixedlub.gear import GearPair
-from mixedlub.rig.build import gear_pair
+from mixedlub.gear.build import gear_pair
 from mixedlub.schema.findings import collected
 from mixedlub.schema.section import Number, Section, Whole, key
 from mixedlub.schema.table import Column, read_table

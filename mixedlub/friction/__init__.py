@@ -7,7 +7,7 @@ from functools import cache
 from types import MappingProxyType
 
 from mixedlub.chain.friction_law import PLACES, REGISTRY, FrictionLaw
-from mixedlub.discovery import loaded
+from mixedlub.schema.discovery import loaded
 from profiles.errors import InputError, nearest
 
 BASE = "tallian_mixture"

@@ -4,7 +4,7 @@ import numpy as np
 
 from mixedlub.chain.friction_law import Coefficient, friction_law
 from mixedlub.friction.schlenk import pitch_load
-from mixedlub.powers import power
+from mixedlub.laws.powers import power
 
 
 @friction_law(

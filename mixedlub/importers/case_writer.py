@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.atomic import writing
+from mixedlub.running.atomic import writing
 from mixedlub.schema.findings import Finding, as_records
 from mixedlub.schema.toml_file import Comments, to_toml
 from profiles.errors import InputError

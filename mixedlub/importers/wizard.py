@@ -11,7 +11,6 @@ import numpy as np
 
 from mixedlub.case.import_file import NAME
 from mixedlub.data_checks.case_check import refuse_unreadable
-from mixedlub.discovery import offered
 from mixedlub.importers import pcs, plain, trios
 from mixedlub.importers.attachments import is_share, with_attachments, with_share
 from mixedlub.importers.base import (
@@ -34,6 +33,7 @@ from mixedlub.importers.missing_inputs import gap_lines, gaps, undescribed
 from mixedlub.importers.text_table import joined_runs
 from mixedlub.importers.time_base import TIME, joined_times
 from mixedlub.schema import system_file, toml_file
+from mixedlub.schema.discovery import offered
 from mixedlub.schema.findings import Finding, Severity, finding, of_severity, report
 from profiles.errors import InputError, nearest
 

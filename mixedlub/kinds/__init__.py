@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from mixedlub.discovery import declared
 from mixedlub.kinds.kind import Kind
+from mixedlub.schema.discovery import declared
 from profiles.errors import InputError, nearest
 
 

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.chain.base_models import GEAR_CONTACT
 from mixedlub.gear import Mesh, at_roll_angle
+from mixedlub.gear.build import gear_pair
 from mixedlub.gear.inputs import motion_inputs
 from mixedlub.kinds import columns
 from mixedlub.kinds.gear_pair import CONDITIONS
 from mixedlub.kinds.kind import MIXED_FRICTION, Inputs, Kind, bookkeeping_inputs, column, inverse_of
 from mixedlub.kinds.standard import GEARS, OIL, ROUGHNESS_UM, StandardRig
 from mixedlub.kinds.surfaces import pair_of_surfaces
+from mixedlub.laws.base_models import GEAR_CONTACT
 from mixedlub.laws.oil import ZERO_CELSIUS
-from mixedlub.rig import build
 from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file
 from mixedlub.schema.table import Column, Table
@@ -71,7 +71,7 @@ def column_limits(system: system_file.System) -> dict[str, tuple[float, float]]:
     """Limits of the roll angle: contact exists on the path of contact only."""
     if system.gears is None:
         return {}
-    pair = build.gear_pair(system.gears)
+    pair = gear_pair(system.gears)
     first, last = np.degrees(np.array([pair.path_start, pair.path_end]) / pair.base_radius[0])
     return {"roll_angle_deg": (float(first), float(last))}
 

@@ -2,7 +2,7 @@ r"""Film and asperities that share the load of a line contact, after Johnson, Gr
 
 The film carries the share :math:`1/\gamma` of the load. It then is as thick as in a smooth contact with
 :math:`w/\gamma` for the load and :math:`E'/\gamma` for the modulus, which has the same width. The asperities carry
-the rest; `mixedlub.chain.balance` finds the film at which both add up.
+the rest; `mixedlub.laws.balanced` finds the film at which both add up.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.laws.film import ELASTIC
-from mixedlub.powers import power
+from mixedlub.laws.powers import power
 
 
 def full_load_film(film_thickness: np.ndarray) -> np.ndarray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.powers import power
+from mixedlub.laws.powers import power
 
 AIR_DENSITY = 1.2
 AIR_VISCOSITY = 1.8e-5

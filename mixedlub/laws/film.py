@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mixedlub.powers import power
-from mixedlub.slots import FILM
+from mixedlub.chain.slots import FILM
+from mixedlub.laws.powers import power
 
 
 class Regression(NamedTuple):

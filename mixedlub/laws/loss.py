@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.slots import SLIDING_POWER
+from mixedlub.chain.slots import SLIDING_POWER
 
 
 @SLIDING_POWER.offers(

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.chain.slots import FILM_FRICTION, MIXTURE
 from mixedlub.laws.contact import mean_hertz_pressure
-from mixedlub.slots import FILM_FRICTION, MIXTURE
 
 
 @FILM_FRICTION.offers("maximum", "film friction is shear stress over the largest Hertz pressure")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.laws.oil import warmed_viscosity
-from mixedlub.powers import power
+from mixedlub.laws.powers import power
 
 
 def flash_safety(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.slots import SHEAR
+from mixedlub.chain.slots import SHEAR
 
 MOST_FRICTION = {"fluid_friction": (0.0, 0.12)}
 """Judgement. Oils yield at a share of the pressure of 0.03 to 0.09 in the literature, traction fluids at up to 0.12."""

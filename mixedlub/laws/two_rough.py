@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.slots import ASPERITY_AREA, ASPERITY_LOAD
+from mixedlub.chain.slots import ASPERITY_AREA, ASPERITY_LOAD
 from roughness.integrals import pair_area_integral, pair_load_integral
 from roughness.mccool import plane_offset, summit_density, summit_radius, summit_sigma
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.chain.slots import ASPERITY_AREA, ASPERITY_LOAD
 from mixedlub.laws.contact import area_per_overlap, pressure_per_overlap, real_area_ratio
-from mixedlub.slots import ASPERITY_AREA, ASPERITY_LOAD
 from roughness import single_asperity
 from roughness.height_sums import AREA, LOAD, height_sum
 from roughness.integrals import area_integral

@@ -10,7 +10,7 @@ from types import MappingProxyType
 from typing import cast
 
 from mixedlub.chain.part_law import GIVES, REGISTRY, Kind, PartLaw
-from mixedlub.discovery import loaded
+from mixedlub.schema.discovery import loaded
 from profiles.errors import InputError, nearest
 
 

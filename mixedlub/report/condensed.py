@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from mixedlub.condensed.regression import Regression
+    from mixedlub.solutions.regression import Regression
 
 
 def figures(found: Regression, against: pd.DataFrame) -> Iterator[tuple[str, Figure]]:

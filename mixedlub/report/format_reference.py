@@ -18,6 +18,7 @@ from mixedlub.efficiency.file import EfficiencyFile
 from mixedlub.ehl.file import EhlFile
 from mixedlub.evaluate import EVALUATIONS
 from mixedlub.friction import catalogue
+from mixedlub.gear.analysis.file import GearAnalysisFile
 from mixedlub.kinds import KINDS, Kind, kind
 from mixedlub.schema.section import FileTable, Key, Section, plain, tables
 from mixedlub.schema.system_file import System
@@ -26,7 +27,6 @@ from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import unit_of
 from mixedlub.study.factor_file import FactorFile
 from mixedlub.study.schema import StudyFile
-from mixedlub.tooth_contact.file import GearAnalysisFile
 from profiles.errors import InputError, nearest
 
 WIDTH = 80

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-    from mixedlub.tooth_contact import ToothContact
+    from mixedlub.gear.analysis import ToothContact
 
 MOST_LINES = 6
 """Most torques that are drawn, spread evenly over those that were computed."""

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from mixedlub.law_errors.ratios import FILM_RATIOS, TRACTION_RATIOS
 from mixedlub.report.style import panels, styled
+from mixedlub.solutions.ratios import FILM_RATIOS, TRACTION_RATIOS
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.parallel import shared_out
 from mixedlub.report.cutoff_table import cutoff_rows
 from mixedlub.report.figures import BANDS, Drawn, figures
 from mixedlub.report.interactive import EMBEDDING, PLACE, explorer
@@ -26,6 +25,7 @@ from mixedlub.report.surfaces import (
     surface_rows,
     traced,
 )
+from mixedlub.running.parallel import shared_out
 from mixedlub.schema.findings import Finding, grouped
 from mixedlub.schema.section import FileTable, Key, table
 from mixedlub.study import counted, factors

@@ -1,4 +1,4 @@
-"""From the sections of `system.toml` to the objects that compute: gears, lubricant, surfaces, in SI."""
+"""From the sections of `system.toml` to the objects that compute: lubricant and surfaces, in SI."""
 
 from __future__ import annotations
 
@@ -12,14 +12,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mixedlub.gear import GearPair, Sharing
 from mixedlub.laws.oil import ZERO_CELSIUS, gold_pressure_viscosity
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.measured import Measured, Traces
 from mixedlub.rig.surface import Surface
 from mixedlub.schema import surface_file, system_file
 from mixedlub.schema.findings import collected, finding, report
-from mixedlub.schema.gear_file import stated_otherwise
 from mixedlub.schema.oil_file import oil_of, overridden
 from mixedlub.schema.toml_file import named_file
 from profiles import SHIPPED_MARK, shipped
@@ -33,32 +31,6 @@ LEAST_NAYAK = 1.5
 """Least m0 m4 / m2^2 of an isotropic Gaussian surface; Nayak 1971."""
 LONG_CUTOFF, SHORT_CUTOFF = 0.8e-3, 2.5e-6
 """Cut-offs (m) of a map that states none; the middle row of ISO 3274."""
-
-
-def gear_pair(section: system_file.Gears) -> GearPair:
-    """The gear pair of a ``[gears]`` section."""
-    tips = section.tip_diameter_mm
-    other = {} if section.preset is None else stated_otherwise(section.model_dump())
-    if other:
-        text = ", ".join(f"{name} in place of {value}" for name, value in other.items())
-        report(finding("gears_overridden", f"{text} of the gears {section.preset}", "gears"))
-    return GearPair(
-        teeth=section.teeth,
-        normal_module=section.normal_module_mm * 1e-3,
-        pressure_angle=float(np.radians(section.pressure_angle_deg)),
-        helix_angle=float(np.radians(section.helix_angle_deg)),
-        profile_shift=section.profile_shift,
-        tip_radius=None if tips is None else (tips[0] * 0.5e-3, tips[1] * 0.5e-3),
-        centre_distance=None if section.centre_distance_mm is None else section.centre_distance_mm * 1e-3,
-        face_width=section.face_width_mm * 1e-3,
-        youngs_modulus=(section.youngs_modulus_GPa[0] * 1e9, section.youngs_modulus_GPa[1] * 1e9),
-        poisson_ratio=section.poisson_ratio,
-    )
-
-
-def sharing(section: system_file.LoadSharing, folder: Path) -> Sharing:
-    """How the load divides between tooth pairs, by ``load_sharing``."""
-    return section.chosen.build(section, folder)
 
 
 DEFAULT_BASE = "mineral"

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from mixedlub.gear import GearPair, Mesh, Sharing, mesh
+from mixedlub.gear import build as gear_build
 from mixedlub.rig import build
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.measured import Measured, Traces
@@ -37,14 +38,14 @@ class Rig:
         """The gear pair; only of files that have one."""
         assert self.file.gears is not None
         section = self.file.gears
-        return self._once("gears", lambda: build.gear_pair(section))
+        return self._once("gears", lambda: gear_build.gear_pair(section))
 
     @property
     def sharing(self) -> Sharing:
         """How the load divides between the tooth pairs in contact."""
         assert self.file.gears is not None
         section = self.file.gears.load_sharing
-        return self._once("sharing", lambda: build.sharing(section, self.folder))
+        return self._once("sharing", lambda: gear_build.sharing(section, self.folder))
 
     def mesh(self, points: int, slices: int | None = None) -> Mesh:
         """The contact points of a tooth pair along its path."""

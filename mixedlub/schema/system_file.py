@@ -10,7 +10,7 @@ from unicodedata import category
 
 from pydantic import AfterValidator, ValidationInfo, create_model, field_validator, model_validator
 
-from mixedlub.discovery import declared
+from mixedlub.schema.discovery import declared
 from mixedlub.schema.gear_file import gear_names, with_preset
 from mixedlub.schema.oil_file import STOCKS, Base, oil_names, with_oil
 from mixedlub.schema.section import Float, Number, NumberOrName, Section, Whole, key, one_of, tables, with_ranges

@@ -20,10 +20,10 @@ import numpy as np
 
 from mixedlub.chain.model import Model, Step
 from mixedlub.chain.ranges import farthest_beyond
-from mixedlub.cluster import on_cluster
 from mixedlub.laws.contact import asperity_load_ratio, mean_hertz_pressure
 from mixedlub.laws.load import carries_load
 from mixedlub.laws.loss import over_path
+from mixedlub.running.cluster import on_cluster
 from mixedlub.study.bands import band
 from mixedlub.study.columns import loss_of
 from mixedlub.study.derived import following

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mixedlub.atomic import PARTS, whole
-from mixedlub.origin import code_fingerprint
+from mixedlub.running.atomic import PARTS, whole
+from mixedlub.running.origin import code_fingerprint
 from mixedlub.study.batch import Found
 from mixedlub.study.pieces import Block
 from mixedlub.study.plan import Plan

@@ -8,9 +8,9 @@ from typing import Any
 from mixedlub import friction
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Parameters, available
+from mixedlub.chain.slots import SLIDING_POWER
 from mixedlub.effects import LAW, find, known_effects, known_in
 from mixedlub.schema.findings import finding, report
-from mixedlub.slots import SLIDING_POWER
 from mixedlub.study.heat import check_exponent
 from mixedlub.study.options import study_chain
 from mixedlub.study.schema import Options, StudyFile

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mixedlub.atomic import PARTS, whole
+from mixedlub.running.atomic import PARTS, whole
 from mixedlub.study.factor_runs import Experiment, Run
 
 if TYPE_CHECKING:

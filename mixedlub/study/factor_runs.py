@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.origin import Origin, code_fingerprint
-from mixedlub.parallel import shared_out
 from mixedlub.rig.rig import Rig
+from mixedlub.running.origin import Origin, code_fingerprint
+from mixedlub.running.parallel import shared_out
 from mixedlub.schema.findings import collected
 from mixedlub.schema.toml_file import parse, read_toml
 from mixedlub.study.checkpoint import input_fingerprint

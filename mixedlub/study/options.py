@@ -9,15 +9,15 @@ from types import MappingProxyType
 from typing import Any
 
 from mixedlub import friction
-from mixedlub.chain.balance import balanced
-from mixedlub.chain.base_models import GEAR_LOSS
 from mixedlub.chain.model import Chain, Law, Model
+from mixedlub.chain.slots import FILM, SLIDING_POWER, SLOTS, VISCOSITY
 from mixedlub.laws import contact, heating, loss, oil, pitch_point, safety
+from mixedlub.laws.balanced import balanced
+from mixedlub.laws.base_models import GEAR_LOSS
 from mixedlub.laws.contact import asperity_pressure, mean_hertz_pressure
 from mixedlub.laws.film import dowson_higginson
 from mixedlub.laws.rough_film import film_over_roughness, rough_film
 from mixedlub.laws.yielding import chang_etsion_bogy_pressure
-from mixedlub.slots import FILM, SLIDING_POWER, SLOTS, VISCOSITY
 from mixedlub.study.schema import Options
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from mixedlub import friction
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Chain, Law, Model, Parameters
+from mixedlub.chain.slots import ASPERITY_LOAD, SLOTS
 from mixedlub.effects import find
 from mixedlub.friction import FrictionLaw
 from mixedlub.gear import GearPair, Mesh
@@ -29,7 +30,6 @@ from mixedlub.rig.rig import Rig
 from mixedlub.rig.surface import Surface, paired
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, report
-from mixedlub.slots import ASPERITY_LOAD, SLOTS
 from mixedlub.study.bands import Group, groups
 from mixedlub.study.chosen_effects import chosen_effects
 from mixedlub.study.friction_options import (

@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 
 from mixedlub import friction
-from mixedlub.atomic import is_alive
-from mixedlub.origin import Origin, as_left, is_same
 from mixedlub.rig.build import DEFAULT_BASE, ZERO_CELSIUS
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.surface import Surface
+from mixedlub.running.atomic import is_alive
+from mixedlub.running.origin import Origin, as_left, is_same
 from mixedlub.schema.section import Section
 from mixedlub.schema.surface_file import SURFACE_FILES, SurfaceSection
 from mixedlub.schema.system_file import Gears

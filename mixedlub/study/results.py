@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mixedlub.running.version import installed_version
 from mixedlub.schema.findings import Finding, Severity, as_texts, listed
 from mixedlub.schema.table import span
 from mixedlub.schema.units import unit_of
@@ -33,7 +34,6 @@ from mixedlub.study.plan import Study, counted, factors
 from mixedlub.study.range_flags import as_words, flags
 from mixedlub.study.table_files import write_tables
 from mixedlub.study.validity import out_of_range
-from mixedlub.version import installed_version
 from profiles.errors import InputError, refuse_other
 
 if TYPE_CHECKING:

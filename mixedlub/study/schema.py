@@ -9,12 +9,12 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BeforeValidator, Field, create_model, model_validator
 
+from mixedlub.chain.slots import ASPERITY_LOAD, SLOTS
 from mixedlub.friction import BASE, PLACES, catalogue
 from mixedlub.schema.friction_file import coefficients_of
 from mixedlub.schema.section import Number, NumberOrName, Section, Whole, check_keys_of, key, table, with_ranges
 from mixedlub.schema.surface_file import SurfaceSection
 from mixedlub.schema.system_file import Gears, RigFile
-from mixedlub.slots import ASPERITY_LOAD, SLOTS
 
 MOST_LEVELS = 100_000
 

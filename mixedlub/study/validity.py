@@ -9,9 +9,9 @@ import numpy as np
 
 from mixedlub.chain.friction_law import unit_and_factor
 from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.chain.slots import SLOTS
 from mixedlub.rig.plausibility import YIELD_RATIO
 from mixedlub.schema.findings import Finding, finding
-from mixedlub.slots import SLOTS
 from mixedlub.study.batch import BEYOND, FILM_OVER_WIDTH
 from mixedlub.study.plan import MOST_FRICTION, Study
 from mixedlub.study.range_flags import EXTRAPOLATED, OF_SHARING

@@ -8,7 +8,7 @@ import numpy as np
 
 from mixedlub.validation.answers import Answer, Truth
 from mixedlub.validation.planted import MEASUREMENT
-from mixedlub.validation.worlds import LAWS
+from mixedlub.validation.rig import LAWS
 from profiles.errors import InputError
 
 Pair = tuple[Truth, Answer]

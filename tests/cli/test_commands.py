@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from mixedlub.cli import COMMANDS, main
-from mixedlub.version import installed_version
+from mixedlub.running.version import installed_version
 
 ROOT = Path(__file__).parents[2]
 

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from mixedlub.atomic import writing
 from mixedlub.cli import main
 from mixedlub.commands.console import output_folder
+from mixedlub.running.atomic import writing
 from profiles.errors import InputError
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

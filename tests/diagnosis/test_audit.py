@@ -15,8 +15,8 @@ from mixedlub.case.forward import Forward
 from mixedlub.data_checks.audit import check_readings
 from mixedlub.data_checks.misread import misread
 from mixedlub.gear import RigidSharing, at_roll_angle
+from mixedlub.gear.build import gear_pair
 from mixedlub.importers import write_case
-from mixedlub.rig.build import gear_pair
 from mixedlub.rig.plausibility import implausible
 from mixedlub.schema.findings import Finding, Severity, codes
 from mixedlub.schema.table import Table

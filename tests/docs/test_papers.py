@@ -9,11 +9,11 @@ import pytest
 
 import mixedlub
 from mixedlub import effects, friction
+from mixedlub.chain.slots import SLOTS
 from mixedlub.cli import COMMANDS
 from mixedlub.evaluate import EVALUATIONS
 from mixedlub.schema.gear_file import gear_names
 from mixedlub.schema.oil_file import oil_names
-from mixedlub.slots import SLOTS
 
 PAGES = Path(__file__).parents[2] / "docs"
 PAGE = (PAGES / "validation" / "papers.md").read_text(encoding="utf-8")

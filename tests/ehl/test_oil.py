@@ -6,6 +6,7 @@ from inspect import signature
 import numpy as np
 import pytest
 
+from mixedlub.chain.slots import VISCOSITY
 from mixedlub.cli import main
 from mixedlub.ehl import EXAMPLE, example_oil, read_oil, solve
 from mixedlub.ehl.file import read_problem
@@ -15,7 +16,6 @@ from mixedlub.schema.findings import collected
 from mixedlub.schema.oil_file import oil_names
 from mixedlub.schema.system_file import Lubricant
 from mixedlub.schema.toml_file import parse
-from mixedlub.slots import VISCOSITY
 from profiles.errors import InputError
 
 TEXT = EXAMPLE.read_text(encoding="utf-8")

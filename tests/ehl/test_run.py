@@ -35,7 +35,7 @@ def never(found: Contacts) -> dict[str, np.ndarray]:
 
 @pytest.fixture(autouse=True)
 def _in_turn(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mixedlub.parallel.os.sched_getaffinity", lambda process: {0}, raising=False)
+    monkeypatch.setattr("mixedlub.running.parallel.os.sched_getaffinity", lambda process: {0}, raising=False)
 
 
 def test_a_stopped_run_goes_on_with_the_parts_that_it_has(tmp_path: Path) -> None:

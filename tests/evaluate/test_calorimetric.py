@@ -12,7 +12,7 @@ from mixedlub.evaluate.calorimetric import loss_factor
 from mixedlub.evaluate.load_stages import LoadStages, split_loss
 from mixedlub.evaluate.uncertainty import Errors
 from mixedlub.gear import LdpSharing, RigidSharing, local_loss_factor, mesh
-from mixedlub.rig.build import gear_pair
+from mixedlub.gear.build import gear_pair
 from mixedlub.schema.system_file import Gears
 from mixedlub.validation.benches import calorimetric as bench
 from mixedlub.validation.benches.tables import as_csv

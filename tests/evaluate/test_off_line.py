@@ -10,7 +10,7 @@ from mixedlub.evaluate import evaluate
 from mixedlub.evaluate.frequency_response import Response, division, over_period
 from mixedlub.evaluate.mesh_force import cycle_pattern
 from mixedlub.gear import RigidSharing
-from mixedlub.rig.build import gear_pair
+from mixedlub.gear.build import gear_pair
 from mixedlub.schema.system_file import Gears
 from mixedlub.validation.benches import off_line as bench
 from mixedlub.validation.benches.tables import as_csv

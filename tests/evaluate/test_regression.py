@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 from mixedlub.cli import main
-from mixedlub.condensed.regression import design_of
-from mixedlub.condensed.stepwise import (
+from mixedlub.evaluate import evaluate
+from mixedlub.friction.condensed import INPUTS
+from mixedlub.solutions.regression import design_of
+from mixedlub.solutions.stepwise import (
     FOLDS,
     ONE_BY_ONE,
     candidates,
@@ -17,8 +19,6 @@ from mixedlub.condensed.stepwise import (
     errors_left_out,
     measured_regression,
 )
-from mixedlub.evaluate import evaluate
-from mixedlub.friction.condensed import INPUTS
 from mixedlub.validation.benches import traction as bench
 from mixedlub.validation.benches.tables import as_csv
 from profiles.errors import InputError

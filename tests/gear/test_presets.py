@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from mixedlub.rig.build import gear_pair
+from mixedlub.gear.build import gear_pair
 from mixedlub.schema.findings import collected
 from mixedlub.schema.gear_file import gear_names, shipped_gears
 from mixedlub.schema.system_file import Gears

@@ -9,8 +9,8 @@ import pytest
 import mixedlub as ml
 from mixedlub.cli import main
 from mixedlub.gear import LdpSharing, RigidSharing, TableSharing, local_loss_factor, mesh
-from mixedlub.tooth_contact import MeshConditions, tooth_contact
-from mixedlub.tooth_contact.table import line_load_table, load_share_table
+from mixedlub.gear.analysis import MeshConditions, tooth_contact
+from mixedlub.gear.analysis.table import line_load_table, load_share_table
 from profiles.errors import InputError
 from tests.gear.pairs import HELICAL, HONG, relieved
 

@@ -12,7 +12,7 @@ import time
 import pytest
 
 from mixedlub.cli import main
-from mixedlub.cluster import on_cluster
+from mixedlub.running.cluster import on_cluster
 from mixedlub.study import batch, read_study, run_study
 from profiles.errors import InputError, RunError
 

@@ -137,7 +137,7 @@ def test_a_run_of_another_study_in_the_folder_is_said(write_study, tmp_path):
 def test_parquet_carries_units_meanings_and_versions(write_study, tmp_path):
     import pyarrow.parquet as pq
 
-    from mixedlub.version import installed_version
+    from mixedlub.running.version import installed_version
 
     run(write_study(title="Named"), tmp_path / "o")
     schema = pq.read_schema(tmp_path / "o" / "results.parquet")

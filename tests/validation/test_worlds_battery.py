@@ -13,11 +13,11 @@ from mixedlub.cli import main
 from mixedlub.validation.answers import read_truth
 from mixedlub.validation.battery import make
 from mixedlub.validation.planted import NAMED, OUTSIDE
+from mixedlub.validation.rig import LAWS
 from mixedlub.validation.rigs import CLASSES, discs
 from mixedlub.validation.run import judge
 from mixedlub.validation.sample_case import Order, sample_case
 from mixedlub.validation.score import score
-from mixedlub.validation.worlds import LAWS
 from mixedlub.validation.worlds.catalogue import OF_KIND, TOGETHER, Followed, following, laws_on
 from mixedlub.validation.worlds.deal import plan_worlds
 from mixedlub.validation.worlds.figures import WORLD_FIGURES

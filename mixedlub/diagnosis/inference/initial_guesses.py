@@ -25,7 +25,7 @@ from mixedlub.diagnosis.settings.inference import (
     STRAINED_CALIBRATION,
     VISIBLE_FROM,
 )
-from mixedlub.parallel import shared_out
+from mixedlub.running.parallel import shared_out
 
 
 @dataclass(frozen=True, eq=False)

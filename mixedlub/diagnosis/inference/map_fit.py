@@ -37,7 +37,7 @@ from mixedlub.diagnosis.settings.inference import (
     STEPS_BEFORE_GIVING_UP,
     WEIGHTS_CONVERGED,
 )
-from mixedlub.parallel import shared_out
+from mixedlub.running.parallel import shared_out
 
 Item = TypeVar("Item")
 

@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from mixedlub.atomic import writing
 from mixedlub.diagnosis.assessment.power_law import DescribedDiscrepancy, describe_discrepancy
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.explanation import DISCREPANCY
@@ -16,8 +15,9 @@ from mixedlub.diagnosis.report.text import words
 from mixedlub.diagnosis.report.text.answer import as_json, predictions
 from mixedlub.diagnosis.search.search import Progress
 from mixedlub.diagnosis.settings.assessment import FALSE_ALARM_RATE
-from mixedlub.origin import FIGURES, Origin, origin_of
-from mixedlub.parallel import shared_out
+from mixedlub.running.atomic import writing
+from mixedlub.running.origin import FIGURES, Origin, origin_of
+from mixedlub.running.parallel import shared_out
 from mixedlub.schema.toml_file import to_toml
 
 XML = '<?xml version="1.0" encoding="utf-8" standalone="no"?>\n'

@@ -27,7 +27,7 @@ from mixedlub.diagnosis.report.text.words import (
     equation_sentence,
 )
 from mixedlub.report.equations import equation
-from mixedlub.version import installed_version
+from mixedlub.running.version import installed_version
 
 CAPTIONS = {
     "recorded_against_simulated": (

@@ -44,8 +44,8 @@ from mixedlub.diagnosis.settings.search import (
     SIGNED_FORM_ERROR_LENGTH,
     SUBSET,
 )
-from mixedlub.parallel import shared_out
 from mixedlub.recording.conditions import Coordinates
+from mixedlub.running.parallel import shared_out
 
 Progress = Callable[[str], None]
 

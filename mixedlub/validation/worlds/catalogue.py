@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mixedlub.validation.rig import Act, Rig
-from mixedlub.validation.worlds import (
+from mixedlub.validation.rig import (
     ASPERITIES,
     BALANCE,
     FILM,
@@ -17,13 +16,11 @@ from mixedlub.validation.worlds import (
     PRESSURE,
     SHEAR,
     TEMPERATURE,
+    Act,
     Law,
-    films,
-    mixed,
-    oils,
-    sharing,
-    traction,
+    Rig,
 )
+from mixedlub.validation.worlds import films, mixed, oils, sharing, traction
 
 TOGETHER = (FILM, SHEAR, PRESSURE, ASPERITIES)
 """A rig of full physics: film, traction averaged over the contact, viscosity and asperities all follow other laws."""

@@ -19,10 +19,9 @@ from mixedlub.validation.battery import (
     sizes,
     surveyed,
 )
-from mixedlub.validation.rig import Rig
+from mixedlub.validation.rig import ASPERITIES, BALANCE, LAWS, MIXTURE, Rig
 from mixedlub.validation.rigs import CLASSES, KINDS, Family, Partners
 from mixedlub.validation.sample_case import Order
-from mixedlub.validation.worlds import ASPERITIES, BALANCE, LAWS, MIXTURE
 from mixedlub.validation.worlds.catalogue import OF_KIND, SPOILT, TOGETHER, has_contact, laws_on
 from profiles.errors import InputError
 

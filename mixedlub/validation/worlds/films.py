@@ -8,8 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from mixedlub.validation.contact import Contact
+from mixedlub.validation.rig import FILM, Law
 from mixedlub.validation.rigs.ball import lubricate_ball_in_any_regime
-from mixedlub.validation.worlds import FILM, Law, follow
+from mixedlub.validation.worlds import follow
 
 Groups = tuple[np.ndarray, np.ndarray, np.ndarray]
 Height = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]

@@ -8,8 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from mixedlub.validation.contact import Contact, dowson_toyoda
+from mixedlub.validation.rig import ASPERITIES, BALANCE, FILM, MIXTURE, Law
 from mixedlub.validation.rigs.ball import hamrock_dowson
-from mixedlub.validation.worlds import ASPERITIES, BALANCE, FILM, MIXTURE, Law, follow
+from mixedlub.validation.worlds import follow
 from mixedlub.validation.worlds.asperities import (
     Asperities,
     bush_gibson_thomas,

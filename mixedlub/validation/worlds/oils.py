@@ -11,9 +11,9 @@ import numpy as np
 from mixedlub.validation.contact import KELVIN, Contact, Oil
 from mixedlub.validation.planted import viscosity_temperature as cooling
 from mixedlub.validation.planted.oil import warmed
-from mixedlub.validation.rig import Knob
+from mixedlub.validation.rig import PRESSURE, TEMPERATURE, Knob, Law
 from mixedlub.validation.rigs.viscosities import Sample
-from mixedlub.validation.worlds import PRESSURE, TEMPERATURE, Law, follow
+from mixedlub.validation.worlds import follow
 
 Rise = Callable[..., np.ndarray]
 """ln(eta/eta_0) from the coefficient alpha (1/Pa), the pressure (Pa), the temperature (C) and ln(eta_0) + 9.67."""

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from mixedlub.validation.contact import Contact
-from mixedlub.validation.worlds import SHARING, Law
+from mixedlub.validation.rig import SHARING, Law
 
 Share = Callable[[np.ndarray, float], np.ndarray]
 """Share of one pair at a place of the path (in base pitches from its start), at a contact ratio between 1 and 2."""

@@ -11,8 +11,8 @@ from dataclasses import replace
 import numpy as np
 
 from mixedlub.validation.contact import Contact, sheared, thick
-from mixedlub.validation.rig import Knob
-from mixedlub.validation.worlds import SHEAR, Law, follow
+from mixedlub.validation.rig import SHEAR, Knob, Law
+from mixedlub.validation.worlds import follow
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(12)
 Warmer = np.ndarray | float

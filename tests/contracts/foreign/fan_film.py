@@ -1,7 +1,7 @@
 """A film law."""
 
+from mixedlub.chain.slots import FILM
 from mixedlub.laws.film import dowson_toyoda
-from mixedlub.slots import FILM
 
 
 @FILM.offers("half_film", "half of the film of Dowson and Toyoda")

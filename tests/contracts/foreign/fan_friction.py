@@ -1,6 +1,6 @@
 """A friction law."""
 
-from mixedlub.slots import MIXTURE
+from mixedlub.chain.slots import MIXTURE
 
 
 @MIXTURE.offers("film_only", "asperities without friction of their own")

@@ -1,6 +1,6 @@
 """A shear law."""
 
-from mixedlub.slots import SHEAR
+from mixedlub.chain.slots import SHEAR
 
 
 @SHEAR.offers("newton", "a film that does not thin under shear")

@@ -1,6 +1,6 @@
 """A viscosity law."""
 
-from mixedlub.slots import VISCOSITY
+from mixedlub.chain.slots import VISCOSITY
 
 
 @VISCOSITY.offers("linear", "viscosity that rises linearly with pressure")

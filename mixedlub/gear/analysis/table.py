@@ -8,8 +8,8 @@ import numpy as np
 import pandas as pd
 
 from mixedlub.gear import GearPair, IsoStiffness, loss_factors
+from mixedlub.gear.analysis.tooth_contact import ToothContact
 from mixedlub.schema.findings import collected
-from mixedlub.tooth_contact.analysis import ToothContact
 
 STIFFNESS = 1e-9
 """From N/m per m to N/(mm um)."""

@@ -7,7 +7,8 @@ import pytest
 from mixedlub.commands.law_errors import RIGS, SEED
 from mixedlub.ehl.oil.file import read_oil
 from mixedlub.ehl.solve import CONVERGED, Way
-from mixedlub.law_errors import ratios, rigs, solutions
+from mixedlub.solutions import kept as solutions
+from mixedlub.solutions import ratios, rigs
 
 ROW = ("pao_vg100", 3)
 """Oil and rig of which contacts are solved again."""

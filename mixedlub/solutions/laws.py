@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from mixedlub.chain.ranges import beyond
+from mixedlub.chain.slots import FILM, FILM_FRICTION, SHEAR, VISCOSITY, Choice
 from mixedlub.effects.film_heating import film_heating
 from mixedlub.effects.inlet_shear_heating import inlet_shear_heating
 from mixedlub.effects.rolling_resistance import rolling_resistance
@@ -18,7 +19,6 @@ from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.friction import BASE, FrictionLaw, catalogue
 from mixedlub.laws import film, heating, mixture, oil, shear
-from mixedlub.slots import FILM, FILM_FRICTION, SHEAR, VISCOSITY, Choice
 
 State = dict[str, Any]
 ROUGHNESS = 0.07e-6

@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 from scipy.stats import t as student
 
-from mixedlub.condensed.regression import Regression, design_of, fitted, limits_of
 from mixedlub.friction.condensed import INPUTS, OIL, TERMS, coefficient_name
+from mixedlub.solutions.regression import Regression, design_of, fitted, limits_of
 
 Criterion = Literal["bic", "p-value"]
 ENTER, LEAVE = 0.05, 0.10

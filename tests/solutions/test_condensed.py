@@ -9,11 +9,12 @@ import pandas as pd
 import pytest
 
 from mixedlub.cli import main
-from mixedlub.condensed import points, regression
-from mixedlub.condensed.law_file import against_published, law_file
 from mixedlub.ehl import example_oil, read_oil
 from mixedlub.ehl.solve import CONVERGED, Way
 from mixedlub.friction.condensed import COEFFICIENTS, INPUTS, condensed
+from mixedlub.solutions import condensed_points as points
+from mixedlub.solutions import regression
+from mixedlub.solutions.law_file import against_published, law_file
 from profiles.errors import InputError, RunError
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "condensed_m100.toml"
@@ -91,7 +92,7 @@ def test_the_file_has_every_coefficient_and_the_published_law_is_compared_over_i
 def test_the_command_writes_law_tables_and_figures(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("mixedlub.condensed.points.solved_table", lambda oil, found, way: planted(0.03))
+    monkeypatch.setattr("mixedlub.solutions.condensed_points.solved_table", lambda oil, found, way: planted(0.03))
     assert main(["condense", "atf", "--solutions", "150", "--out", str(tmp_path)]) == 0
     written = {path.name for path in tmp_path.iterdir()}
     assert written == {"atf_friction.toml", "solutions.csv", "terms.csv", "against_published.csv", "figures"}

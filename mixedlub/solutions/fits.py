@@ -10,8 +10,8 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 import pandas as pd
 
-from mixedlub.law_errors.ratios import ALL, FILM_RATIOS, STRESSES, TRACTION_RATIOS
-from mixedlub.law_errors.rigs import LEAST_CONTACTS
+from mixedlub.solutions.ratios import ALL, FILM_RATIOS, STRESSES, TRACTION_RATIOS
+from mixedlub.solutions.rigs import LEAST_CONTACTS
 
 FLATTENED = 2.0
 """Moes' M above which film laws are for: below, nothing is flattened."""

@@ -8,10 +8,10 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
-from mixedlub.condensed.regression import Regression
 from mixedlub.friction.condensed import INPUTS, condensed
 from mixedlub.friction.xu_kahraman import xu_kahraman
 from mixedlub.schema.friction_file import SCHEMA
+from mixedlub.solutions.regression import Regression
 
 LEVELS = 5
 """Levels of pressure, sliding, speed and viscosity at which both laws are compared."""

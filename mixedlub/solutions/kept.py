@@ -13,8 +13,8 @@ from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.oil.file import oil_of
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.ehl.solve import CONVERGED, DIVERGED, Way, contacts
-from mixedlub.law_errors.rigs import draw
 from mixedlub.laws.oil import ZERO_CELSIUS
+from mixedlub.solutions.rigs import draw
 from profiles.errors import InputError, nearest
 
 KEPT = Path(__file__).parent / "solutions.csv"

@@ -6,9 +6,9 @@ import numpy as np
 import pandas as pd
 
 from mixedlub.ehl.oil.oil import Oil
-from mixedlub.law_errors.laws import State, compared, state_of
-from mixedlub.law_errors.solutions import CONDITIONS, WAYS, columns, contacts_of
 from mixedlub.laws.film import dowson_higginson
+from mixedlub.solutions.kept import CONDITIONS, WAYS, columns, contacts_of
+from mixedlub.solutions.laws import State, compared, state_of
 
 FILM_RATIOS = ("film_over_law", "thermal_film_over_law", "flow_film_over_law", "minimum_film_over_law")
 TRACTION_RATIOS = ("traction_mean_over_peak", "thermal_traction_over_peak")

@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from mixedlub.ehl.oil.file import read_oil
-from mixedlub.law_errors import fits, laws, ratios, rigs
+from mixedlub.solutions import fits, laws, ratios, rigs
 
 
 @pytest.fixture(scope="module")
@@ -72,7 +72,7 @@ def test_an_oil_without_contacts_in_the_range_is_refused() -> None:
 
 def test_laws_beyond_their_range_give_nothing() -> None:
     from mixedlub.ehl import example_oil
-    from mixedlub.law_errors.rigs import draw
+    from mixedlub.solutions.rigs import draw
 
     found = draw(example_oil(), 3, 1).contacts
     state = laws.state_of(example_oil(), found)

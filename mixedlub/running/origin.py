@@ -16,7 +16,7 @@ from profiles.errors import InputError
 SCHEMA = "mixedlub-origin/1"
 NAME = "origin.json"
 FIGURES = "figures"
-"""Folder of drawings, which say themselves that they were made here (`mixedlub.atomic`)."""
+"""Folder of drawings, which say themselves that they were made here (`mixedlub.running.atomic`)."""
 ENDS = 1 << 20
 """Bytes at either end of a file that identify it, so that a large table need not be read completely."""
 
@@ -89,7 +89,7 @@ def code_fingerprint() -> str:
     import roughness
 
     digest = hashlib.sha256(np.__version__.encode())
-    for package in (Path(__file__).parent, Path(roughness.__path__[0])):
+    for package in (Path(__file__).parent.parent, Path(roughness.__path__[0])):
         for path in sorted(package.rglob("*.py")):
             digest.update(path.read_bytes())
     return digest.hexdigest()

@@ -10,12 +10,12 @@ import numpy as np
 from pydantic import BeforeValidator, Field
 
 from mixedlub.gear import GearPair
+from mixedlub.gear.analysis.tooth_contact import MeshConditions
+from mixedlub.gear.build import gear_pair, sharing
 from mixedlub.gear.mesh import Sharing
-from mixedlub.rig.build import gear_pair, sharing
 from mixedlub.schema.section import Number, Section, Whole, key
 from mixedlub.schema.system_file import Gears
 from mixedlub.schema.toml_file import parse, read_toml
-from mixedlub.tooth_contact.analysis import MeshConditions
 
 Positive = Annotated[Number, Field(gt=0.0)]
 

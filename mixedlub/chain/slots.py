@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from typing import Any, TypeVar
 
-from mixedlub.discovery import loaded
+from mixedlub.schema.discovery import loaded
 
 Law = TypeVar("Law", bound=Callable[..., Any])
 

@@ -11,8 +11,8 @@ from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.ehl.solve import Way, contacts
 from mixedlub.friction.condensed import INPUTS, OIL
-from mixedlub.law_errors.rigs import STEEL, inside
 from mixedlub.laws.oil import ZERO_CELSIUS
+from mixedlub.solutions.rigs import STEEL, inside
 from profiles.errors import InputError
 
 RANGES = {

@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from mixedlub.cli import main
-from mixedlub.law_errors import solutions
+from mixedlub.solutions import kept as solutions
 
 pytestmark = pytest.mark.filterwarnings("ignore:lubricant")
 

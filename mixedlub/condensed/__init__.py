@@ -1,1 +1,0 @@
-"""Friction of full solutions condensed into a regression for one oil, which studies use as a friction law."""

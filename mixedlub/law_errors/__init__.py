@@ -1,1 +1,0 @@
-"""How far the laws of line contacts are from full solutions: contacts, solutions of them, ratios, and fits of these."""
