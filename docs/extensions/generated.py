@@ -25,6 +25,16 @@ TITLES = {"mccool": "McCool's asperities", "integrals": "Integrals of Gaussian h
 COLUMN_HEAD = ("column", "unit", "needed", "allowed", "meaning")
 ELSEWHERE = re.compile(r"^gears|^stages\.NAME\.(gears|lubricant|surfaces|options)\b")
 """Tables of a file whose keys other pages have."""
+RESULTS = {
+    "gear": ("mixedlub.gear.analysis.table", "TABLES"),
+    "efficiency": ("mixedlub.efficiency.table", "TABLES"),
+    "ehl": ("mixedlub.ehl.table", "TABLES"),
+    "friction": ("mixedlub.study.friction_comparison", "TABLES"),
+    "condense": ("mixedlub.solutions.result_columns", "CONDENSED"),
+    "law_errors": ("mixedlub.solutions.result_columns", "LAW_ERRORS"),
+    "simulate": ("mixedlub.commands.simulate", "TABLES"),
+}
+"""Modules that describe the columns of the tables of commands, and the names of the descriptions."""
 WITH_PAGES = ("laws", "effects", "friction")
 """Rooms of public names that other pages list."""
 BASELINES = (
@@ -61,6 +71,7 @@ def pieces() -> dict[str, str]:
         "by_flaw": scores.counts(poor, "by flaw"),
         "study_keys": _study_keys(),
         "study_columns": _study_columns(),
+        **{f"{name}_columns": _columns(module, given) for name, (module, given) in RESULTS.items()},
         "factor_keys": _file_keys("mixedlub.study.factor_file", "FactorFile"),
         "factor_columns": _factor_columns(),
         "friction_laws": _friction_laws(),
@@ -233,6 +244,13 @@ def _study_keys() -> str:
     return md.key_tables(StudyFile)
 
 
+def _columns(module: str, given: str) -> str:
+    """The columns of the tables of a command."""
+    from importlib import import_module
+
+    return md.columns({f"{name}.csv": columns for name, columns in getattr(import_module(module), given).items()})
+
+
 def _study_columns() -> str:
     """The columns of every table of a study."""
     from mixedlub.study.columns import every_column
@@ -243,7 +261,7 @@ def _study_columns() -> str:
         {
             "results.csv, results.parquet": every_column(["EFFECT"], bands=False),
             "fits.csv": fit_columns(),
-            "curves.csv, curves.parquet": curve_columns(),
+            "curves.parquet, curves.csv": curve_columns(),
         }
     )
 
@@ -282,6 +300,7 @@ def _evaluations() -> str:
         parts += [
             part for table in tables(one.file) if table.name.split(".")[0] not in elsewhere for part in md.keys(table)
         ]
+        parts.append(md.columns({f"{name}.csv": columns for name, columns in one.results.items()}))
     return "\n\n".join(parts)
 
 

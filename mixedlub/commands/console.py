@@ -36,6 +36,7 @@ def named_folder(text: str) -> Path:
 
 _opened: list[Path] = []
 _made: list[Path] = []
+_published: list[Path] = []
 
 
 def output_folder(out: Path | None, command: str, name: str) -> Path:
@@ -56,6 +57,12 @@ def reset_output() -> None:
     """Forget the output folder of an earlier command."""
     _opened.clear()
     _made.clear()
+    _published.clear()
+
+
+def tables_written() -> None:
+    """Take note that the tables of the result are in the output folder."""
+    _published[:] = _opened
 
 
 def drop_empty_folders() -> None:
@@ -75,6 +82,8 @@ def resume_hint(partial: str) -> str:
     if not _opened:
         return ""
     (folder,) = _opened
+    if _published:
+        return f"; the tables are in {folder}"
     if partial and any(path.is_file() for path in folder.glob(partial)):
         return f"; what was done is kept in {folder}, and the same command goes on from there"
     return "; no result was written, and the same command starts anew"

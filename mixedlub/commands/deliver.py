@@ -23,8 +23,9 @@ from mixedlub.commands.console import (
     output_folder,
     print_findings,
     save_traceback,
+    tables_written,
 )
-from mixedlub.running.atomic import clear_parts, is_own, writing
+from mixedlub.running.atomic import clear_parts, fill, is_own, writing
 from mixedlub.running.origin import FIGURES, Origin, as_left
 from mixedlub.schema.findings import Finding, listed
 from mixedlub.schema.result import Result
@@ -163,8 +164,11 @@ class Delivery:
         return self.origin.check_folder(self.folder, [*names, *foreign], self.what)
 
 
-def deliver(result: Result, to: Delivery, *, page: Page | None = None, written: str = "") -> None:
-    """Write the tables of a result, then draw it, and say so; a figure that fails leaves the tables and status 1."""
+def deliver(result: Result, to: Delivery, *, page: Page | None = None, written: str = "", drawings: str = "") -> None:
+    """Write the tables of a result, then draw it; a figure that fails leaves the tables, and status 1.
+
+    ``written`` is the last line for the user, ``drawings`` its end if all was drawn.
+    """
     from mixedlub.importers.case_writer import write_case
 
     how, folder = to.how, to.folder
@@ -174,19 +178,19 @@ def deliver(result: Result, to: Delivery, *, page: Page | None = None, written: 
     to.check([*to.names(result.tables), *result.files, *case], result.figures if how.figures else ())
     with to.publishing() as aside:
         _write_tables(result, how, aside)
-        for name, content in result.files.items():
-            (aside / name).parent.mkdir(parents=True, exist_ok=True)
-            (aside / name).write_bytes(content.encode() if isinstance(content, str) else content)
+        fill(result.files, aside)
         if result.case is not None:
             write_case(aside / CASE, result.case.system, result.case.columns, attachments=result.case.attachments)
     clear_parts(folder)
+    tables_written()
     drawn = not how.figures or _drawn(result, to, page)
     others = sorted(set(as_left(folder)) - to.written)
     if others:
-        note(f"{listed(others)} in {folder} stay from an earlier run")
+        note(f"of an earlier run, in {folder}: {listed(others)}")
     for line in result.lines:
         echo(line)
-    echo(written or f"results in {folder / next(iter(to.names(result.tables)), '')}")
+    last = written or f"results in {folder / next(iter(to.names(result.tables)), '')}"
+    echo(last + (drawings if how.figures and drawn else ""))
     if not drawn:
         raise typer.Exit(1)
 

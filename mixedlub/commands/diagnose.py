@@ -2,33 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from mixedlub.commands.console import (
-    CONDITIONS,
-    busy,
-    case_folder,
-    echo,
-    input_errors_from,
-    named_folder,
-    note,
-    output_folder,
-    print_findings,
-)
+from mixedlub.commands.console import CONDITIONS, busy, case_folder, input_errors_from, print_findings
+from mixedlub.commands.deliver import How, deliver, delivers
+from mixedlub.running.atomic import fill
+from mixedlub.schema.findings import Finding
+from mixedlub.schema.result import Result
 
 NAME = "diagnose"
 EXAMPLE = "mixedlub new case --out my_case && mixedlub diagnose my_case"
 
 
+@delivers(NAME, "figures", "format_", "xlsx", "csv_style")
 def command(
     case: Annotated[Path, typer.Argument(metavar="CASE", help="Case folder with system.toml and recordings.csv.")],
-    out: Annotated[
-        Path | None,
-        typer.Option(metavar="DIR", parser=named_folder, help="Folder for the report; default out/diagnose/NAME."),
-    ] = None,
+    how: How,
     predict: Annotated[
         Path | None,
         typer.Option(metavar="conditions.csv", help=f"Conditions to predict; default the case's own. {CONDITIONS}"),
@@ -39,22 +32,25 @@ def command(
     level: Annotated[
         float, typer.Option(metavar="CHANCE", help="Level of the mismatch test, from 1e-9 to 0.5.")
     ] = 0.01,
-    replace: Annotated[
-        bool, typer.Option("--replace", help="Replace the result of another case, or other files, in that folder.")
-    ] = False,
 ) -> None:
     """Name the missing physics of a recording.
 
     How sure, where it shows, what it is confused with, and what to test next.
     """
-    from mixedlub.diagnosis.report.files import WRITTEN, case_origin, diagnose
+    from mixedlub.diagnosis.diagnose import diagnose_case
+    from mixedlub.diagnosis.report import files
 
-    folder = output_folder(out, NAME, case_folder(case).resolve().name)
-    earlier = "" if replace else case_origin(case).check_folder(folder, WRITTEN, "case")
-    if earlier:
-        note(earlier)
+    to = how.open(case_folder(case).resolve().name, files.case_origin(case), (), "case", *files.WRITTEN)
     with busy("reading") as progress, input_errors_from(str(case)):
-        found = diagnose(case, folder, predict=predict, exclude=tuple(exclude or ()), level=level, progress=progress)
+        found = diagnose_case(case, predict, tuple(exclude or ()), level, progress)
+        extra = files.described(found)
+        contents = files.texts(found, extra)
     print_findings(found.case.notes)
-    echo((folder / "report.txt").read_text(encoding="utf-8"))
-    echo(f"written to {folder}")
+
+    def page(aside: Path, doing: Callable[[str], None]) -> list[Finding]:
+        fill(files.drawings(found, extra), aside)
+        return []
+
+    files.drop_earlier(contents, to.folder / files.FOLDER)
+    result = Result(found.case.name, {}, {}, (str(contents["report.txt"]),), files=contents)
+    deliver(result, to, page=page, written=f"written to {to.folder}")

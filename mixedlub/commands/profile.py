@@ -124,8 +124,8 @@ def command(
     drawings = to.folder / "figures"
     if not how.figures and drawings.exists():
         note(f"{drawings} is of an earlier run; without --no-figures it is drawn anew")
-    written = f"details in {to.folder / 'profile.json'}" + (f", figures in {drawings}" if how.figures else "")
-    deliver(result, to, written=written)
+    written = f"details in {to.folder / 'profile.json'}"
+    deliver(result, to, written=written, drawings=f", figures in {drawings}")
 
 
 def each_read(files: list[Path], read: Callable[[Path], Profile]) -> list[Profile]:

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.console import echo, input_errors_from, note, print_findings, progress_bar, resumed
+from mixedlub.commands.console import echo, input_errors_from, print_findings, progress_bar, resumed
 from mixedlub.commands.deliver import How, deliver, delivers
 from mixedlub.schema.findings import Finding
 from mixedlub.schema.result import Result
@@ -89,8 +89,5 @@ def command(
                 doing=doing,
             )
 
-        shown = to.folder / "index.html"
-        if not how.figures and shown.exists() and checkpoint.fingerprint(study.plan) not in shown.read_text("utf-8"):
-            note(f"{shown} and its figures are of another study; without --no-figures they are drawn anew")
-        written = f"results in {to.folder / 'results.csv'} and .parquet" + (f", page {shown}" if how.figures else "")
-        deliver(result, to, page=page, written=written)
+        written = f"results in {to.folder / 'results.csv'} and .parquet"
+        deliver(result, to, page=page, written=written, drawings=f", page {to.folder / 'index.html'}")

@@ -18,7 +18,7 @@ STRESS_STEPS = 60
 
 
 @dataclass(frozen=True)
-class Column:
+class FilmColumn:
     """Columns of film: oil at their pressure (Pa), temperature (K) across, gap (m), pressure gradient (Pa/m).
 
     All but the temperature have the shape of the columns; the temperature has nodes across as its last axis.
@@ -48,7 +48,7 @@ class Sheared:
     miss: np.ndarray
 
 
-def sheared(column: Column, start: np.ndarray) -> Sheared:
+def sheared(column: FilmColumn, start: np.ndarray) -> Sheared:
     r"""Shear of columns whose walls slide: the mean stress by Newton's method from a start.
 
     .. math:: h \int_{-1/2}^{1/2} \dot\gamma(\tau_m + s h p_x)\,ds = u_2 - u_1
@@ -89,7 +89,7 @@ class Driven:
     by_gap: np.ndarray
 
 
-def driven(column: Column, shear: Sheared) -> Driven:
+def driven(column: FilmColumn, shear: Sheared) -> Driven:
     r"""Flow against the pressure gradient, :math:`h^2\int s\,\dot\gamma\,ds`, at the sliding speed of the walls."""
     gap, gradient = column.gap, column.gradient
     zeroth, first, second = np.moveaxis(shear.by_stress @ MOMENTS, -1, 0)
@@ -107,7 +107,7 @@ def driven(column: Column, shear: Sheared) -> Driven:
     )
 
 
-def newtonian(column: Column) -> Driven:
+def newtonian(column: FilmColumn) -> Driven:
     r"""Flow of a Newtonian oil of one temperature across, :math:`h^3 p_x/(12\eta)`, without the shear of the walls."""
     log, by_p, _ = column.oil.log_viscosity(column.pressure, column.temperature[..., 0])
     mobility = column.gap**3 * np.exp(-log) / 12.0

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.ehl import across
-from mixedlub.ehl.columns import Column, driven, newtonian, sheared
+from mixedlub.ehl.columns import FilmColumn, driven, newtonian, sheared
 from mixedlub.ehl.grid import Grid
 from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.oil.oil import Oil
@@ -65,10 +65,10 @@ def flow(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.ndarray
     )
 
 
-def cell_columns(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.ndarray) -> Column:
+def cell_columns(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.ndarray) -> FilmColumn:
     """Columns of film at both sides of each cell, under the pressure gradient of the cell."""
     gradient = np.diff(state.pressure, axis=1) / grid.steps * (contacts.pressure / contacts.half_width)[:, None]
-    return Column(
+    return FilmColumn(
         oil,
         sides(state.pressure) * contacts.pressure[:, None, None],
         sides(state.temperature),

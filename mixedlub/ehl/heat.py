@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.ehl.across import COUNT, DERIVATIVE, NODES, RUNNING, SECOND, WEIGHTS
-from mixedlub.ehl.columns import Column, Sheared, sheared
+from mixedlub.ehl.columns import FilmColumn, Sheared, sheared
 from mixedlub.ehl.grid import Grid
 from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.linear import times
@@ -90,11 +90,11 @@ def _at_nodes(stress: np.ndarray) -> np.ndarray:
     return 0.5 * (before + after)
 
 
-def node_columns(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.ndarray) -> Column:
+def node_columns(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.ndarray) -> FilmColumn:
     """Columns of film at the nodes, under the mean gradient of the cells on both sides."""
     cells = np.pad(np.diff(state.pressure, axis=1) / grid.steps, ((0, 0), (1, 1)), mode="edge")
     gradient = 0.5 * (cells[:, :-1] + cells[:, 1:])
-    return Column(
+    return FilmColumn(
         oil,
         state.pressure * contacts.pressure[:, None],
         state.temperature,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -32,6 +32,14 @@ def writing(folder: Path) -> Iterator[Path]:
             entry.replace(target)
     finally:
         shutil.rmtree(aside, ignore_errors=True)
+
+
+def fill(contents: Mapping[str, str | bytes], folder: Path) -> None:
+    """Write files into a folder, by their path in it."""
+    for name, content in contents.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content.encode() if isinstance(content, str) else content)
 
 
 @contextmanager

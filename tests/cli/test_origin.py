@@ -19,10 +19,10 @@ def answered(tmp_path, monkeypatch):
     shutil.copytree(EXAMPLE, "rigs/case")
     files.write(ANSWER, Path("o"), files.case_origin(Path("rigs/case")))
 
-    def diagnosed(case, out, **options):
+    def diagnosed(*arguments):
         raise RuntimeError("diagnosed")
 
-    monkeypatch.setattr(files, "diagnose", diagnosed)
+    monkeypatch.setattr("mixedlub.diagnosis.diagnose.diagnose_case", diagnosed)
     return Path("rigs/case")
 
 

@@ -74,7 +74,7 @@ def interrupted(monkeypatch):
 
 
 def test_ctrl_c_leaves_no_empty_folder_and_says_that_nothing_was_written(tmp_path, interrupted, capsys):
-    interrupted("mixedlub.diagnosis.report.files.diagnose")
+    interrupted("mixedlub.diagnosis.diagnose.diagnose_case")
     assert main(["diagnose", str(EXAMPLES / "case"), "--out", str(tmp_path / "a" / "b")]) == 130
     assert capsys.readouterr().err == "mixedlub: stopped; no result was written, and the same command starts anew\n"
     assert list(tmp_path.iterdir()) == []
@@ -85,6 +85,15 @@ def test_ctrl_c_says_where_what_was_done_is_kept_and_that_it_goes_on(tmp_path, i
     assert main(["prove", "--quick", "--out", str(tmp_path / "out")]) == 130
     said = f"mixedlub: stopped; what was done is kept in {tmp_path / 'out'}, and the same command goes on from there\n"
     assert capsys.readouterr().err.endswith(said)
+
+
+def test_ctrl_c_while_drawing_says_where_the_tables_are(tmp_path, interrupted, capsys):
+    interrupted("mixedlub.diagnosis.report.files.drawings")
+    out = tmp_path / "out"
+    assert main(["diagnose", str(EXAMPLES / "case"), "--out", str(out)]) == 130
+    assert capsys.readouterr().err.endswith(f"mixedlub: stopped; the tables are in {out}\n")
+    assert (out / "diagnosis.json").exists()
+    assert not (out / "report.html").exists()
 
 
 def test_ctrl_c_of_a_command_without_results_says_that_it_stopped(interrupted, capsys):

@@ -51,7 +51,7 @@ def test_while_computing_what_was_done_is_kept_and_the_rerun_goes_on(write_study
     assert "2 of " in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("place", ["pyarrow.parquet.write_table", "mixedlub.study.results.Results.write"])
+@pytest.mark.parametrize("place", ["pyarrow.parquet.write_table", "mixedlub.commands.deliver.write_long"])
 def test_while_writing_nothing_is_left_half_done(place, write_study, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(batch, "BLOCK_POINTS", 150)
     monkeypatch.setattr(place, fails)

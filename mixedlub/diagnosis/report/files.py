@@ -15,7 +15,7 @@ from mixedlub.diagnosis.report.text import words
 from mixedlub.diagnosis.report.text.answer import as_json, predictions
 from mixedlub.diagnosis.search.search import Progress
 from mixedlub.diagnosis.settings.assessment import FALSE_ALARM_RATE
-from mixedlub.running.atomic import writing
+from mixedlub.running.atomic import fill, writing
 from mixedlub.running.origin import FIGURES, Origin, origin_of
 from mixedlub.running.parallel import shared_out
 from mixedlub.schema.toml_file import to_toml
@@ -55,35 +55,43 @@ def case_origin(folder: Path) -> Origin:
 
 def files(d: Diagnosis) -> dict[str, str | bytes]:
     """The contents of all files of the answer, by file name."""
-    from mixedlub.diagnosis.report import html
-    from mixedlub.diagnosis.report.figures import figures
-    from mixedlub.diagnosis.report.figures.style import as_drawn
+    extra = described(d)
+    return {**texts(d, extra), **drawings(d, extra)}
 
-    extra = _described(d)
-    parts = words.sections(d, extra)
-    drawn = figures.all_figures(d, extra)
-    drawings = dict(zip(drawn, shared_out(as_drawn, list(drawn.values())), strict=True))
+
+def texts(d: Diagnosis, extra: DescribedDiscrepancy | None) -> dict[str, str | bytes]:
+    """The contents of the files that need no drawing."""
     return {
         "diagnosis.json": json.dumps({**as_json(d), **_discrepancy_record(extra)}, indent=1, ensure_ascii=False) + "\n",
         "predictions.csv": predictions(d).to_csv(index=False, float_format="%.9g", lineterminator="\n"),
-        "report.txt": _text(d, parts),
-        "report.html": html.render(d, parts, drawings),
-        **{f"{FIGURES}/{name}.svg": XML + drawing for name, drawing in drawings.items()},
+        "report.txt": _text(d, words.sections(d, extra)),
         AS_USED: to_toml(d.given.system.model_dump(by_alias=True, exclude_unset=True)),
         **improved_files(d),
     }
 
 
+def drawings(d: Diagnosis, extra: DescribedDiscrepancy | None) -> dict[str, str | bytes]:
+    """The contents of the page and of the figures."""
+    from mixedlub.diagnosis.report import html
+    from mixedlub.diagnosis.report.figures import figures
+    from mixedlub.diagnosis.report.figures.style import as_drawn
+
+    drawn = figures.all_figures(d, extra)
+    svgs = dict(zip(drawn, shared_out(as_drawn, list(drawn.values())), strict=True))
+    page = html.render(d, words.sections(d, extra), svgs)
+    return {"report.html": page, **{f"{FIGURES}/{name}.svg": XML + svg for name, svg in svgs.items()}}
+
+
 def report_text(d: Diagnosis) -> str:
     """The report as plain text."""
-    return _text(d, words.sections(d, _described(d)))
+    return _text(d, words.sections(d, described(d)))
 
 
 def _text(d: Diagnosis, parts: Sequence[words.Section]) -> str:
     return words.as_text(f"Diagnosis of {d.case.name}", parts)
 
 
-def _described(d: Diagnosis) -> DescribedDiscrepancy | None:
+def described(d: Diagnosis) -> DescribedDiscrepancy | None:
     """The model discrepancy in more detail, where it is among the tied explanations."""
     return describe_discrepancy(d.search) if DISCREPANCY in d.posterior.tied else None
 
@@ -117,16 +125,13 @@ def write(contents: Mapping[str, str | bytes], out: Path, origin: Origin | None 
     """Write all files of an answer, and where it has an origin its record, in place of those of an earlier one."""
     out.mkdir(parents=True, exist_ok=True)
     with writing(out) as aside:
-        for name, text in contents.items():
-            path = aside / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(text.encode() if isinstance(text, str) else text)
+        fill(contents, aside)
         if origin is not None:
             origin.write_record(aside, out)
-    _drop_earlier(contents, out / FOLDER)
+    drop_earlier(contents, out / FOLDER)
 
 
-def _drop_earlier(contents: Mapping[str, str | bytes], folder: Path) -> None:
+def drop_earlier(contents: Mapping[str, str | bytes], folder: Path) -> None:
     """Remove what an earlier answer wrote of an improved model and this one does not."""
     for name in FILES:
         if f"{folder.name}/{name}" not in contents:
