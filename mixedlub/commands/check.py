@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from mixedlub.schema.table import Table
 
 NAME = "check"
-EXAMPLE = "mixedlub new case --out my_case && mixedlub check my_case"
+EXAMPLE = "mixedlub new case --out my_case\nmixedlub check my_case"
 
 
 def command(case: Annotated[Path, typer.Argument(metavar="CASE", help="Case folder with system.toml.")]) -> None:

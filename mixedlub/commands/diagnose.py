@@ -20,7 +20,7 @@ from mixedlub.commands.console import (
 )
 
 NAME = "diagnose"
-EXAMPLE = "mixedlub new case --out my_case && mixedlub diagnose my_case"
+EXAMPLE = "mixedlub new case --out my_case\nmixedlub diagnose my_case"
 
 
 def command(

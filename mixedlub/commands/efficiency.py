@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from mixedlub.efficiency.mesh_cycle import MeshCycle
 
 NAME = "efficiency"
-EXAMPLE = "mixedlub new efficiency --out my_gearbox && mixedlub efficiency my_gearbox/efficiency.toml"
+EXAMPLE = "mixedlub new efficiency --out my_gearbox\nmixedlub efficiency my_gearbox/efficiency.toml"
 DIGITS = "%.12g"
 """Digits of the tables: parts add up to their total within 1e-9."""
 

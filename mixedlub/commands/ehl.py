@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 NAME = "ehl"
-EXAMPLE = "mixedlub new ehl --out my_contacts && mixedlub ehl my_contacts/contacts.toml"
+EXAMPLE = "mixedlub new ehl --out my_contacts\nmixedlub ehl my_contacts/contacts.toml"
 
 
 def command(

@@ -13,7 +13,7 @@ from mixedlub.running.atomic import writing
 from mixedlub.schema.findings import collected
 
 NAME = "evaluate"
-EXAMPLE = "mixedlub new calorimetric --out rig && mixedlub evaluate calorimetric rig/calorimetric.toml"
+EXAMPLE = "mixedlub new calorimetric --out rig\nmixedlub evaluate calorimetric rig/calorimetric.toml"
 METHODS = "calorimetric, strain-gauge, off-line, two-disc, regression or calibration."
 CASE = "case"
 """Folder of the results that `mixedlub diagnose` reads."""

@@ -14,7 +14,7 @@ from mixedlub.commands.study import progress_bar, resumed
 from mixedlub.running.atomic import clear_parts, writing
 
 NAME = "factors"
-EXAMPLE = "mixedlub new factors --out my_factors && mixedlub factors my_factors/factors.toml"
+EXAMPLE = "mixedlub new factors --out my_factors\nmixedlub factors my_factors/factors.toml"
 
 
 def command(

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from mixedlub.gear.analysis import ToothContact
 
 NAME = "gear"
-EXAMPLE = "mixedlub new gear --out my_gears && mixedlub gear my_gears/gear.toml"
+EXAMPLE = "mixedlub new gear --out my_gears\nmixedlub gear my_gears/gear.toml"
 MOST_PRINTED = 8
 """Most torques that are printed."""
 

@@ -15,8 +15,8 @@ from profiles.errors import InputError
 
 NAME = "import"
 EXAMPLE = (
-    "mixedlub new case --out my_case && "
-    "mixedlub import my_case/recordings.csv --answers my_case/system.toml --out imported"
+    "mixedlub new case --out rig\n"
+    "mixedlub import rig/recordings.csv --answers rig/system.toml --out imported"
 )
 
 

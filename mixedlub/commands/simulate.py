@@ -19,7 +19,7 @@ from mixedlub.commands.console import (
 from mixedlub.running.atomic import writing
 
 NAME = "simulate"
-EXAMPLE = "mixedlub new case --out my_case && mixedlub simulate my_case"
+EXAMPLE = "mixedlub new case --out my_case\nmixedlub simulate my_case"
 
 
 def command(

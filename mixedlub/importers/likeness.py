@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 import re
-import shlex
 from collections.abc import Iterable, Mapping, Sequence
 
 from mixedlub.importers.answer_keys import COLUMNS
@@ -14,6 +13,7 @@ from mixedlub.importers.time_base import TIME, counted
 from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, WEIGHED, Target, family, is_kinematic, target_of
 from mixedlub.kinds import KINDS
 from mixedlub.kinds import kind as kind_of
+from mixedlub.running.shell import quoted
 from mixedlub.schema.dates import is_dated
 from mixedlub.schema.table import Column, is_missing
 from mixedlub.schema.toml_file import toml_value
@@ -308,7 +308,7 @@ def rivals(column: str, taken: str, cells: Cells) -> list[str]:
 
 def rival_note(column: str, taken: str, others: Sequence[str]) -> str:
     """A note on the headers that may be meant instead of the one taken, with the setting that takes each."""
-    settings = (f"{h!r}: --set {shlex.quote(f'{COLUMNS}{column}={toml_value(h)}')}" for h in others)
+    settings = (f"{h!r}: --set {quoted(f'{COLUMNS}{column}={toml_value(h)}')}" for h in others)
     return f"{taken!r} is taken as {column}; if another is meant, {', or '.join(settings)}"
 
 
@@ -321,6 +321,6 @@ def spare_questions(spare: Mapping[str, str]) -> list[Question]:
 def spare_notes(spare: Mapping[str, str]) -> Sequence[str]:
     """Notes on headers left out, with the setting that takes each."""
     return [
-        f"{h!r} is not taken; if it is {column}: --set {shlex.quote(f'{COLUMNS}{column}={toml_value(h)}')}"
+        f"{h!r} is not taken; if it is {column}: --set {quoted(f'{COLUMNS}{column}={toml_value(h)}')}"
         for column, h in spare.items()
     ]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -46,6 +45,7 @@ from mixedlub.importers.time_base import (
 )
 from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, is_kinematic, is_of_another, target_of
 from mixedlub.kinds import Kind
+from mixedlub.running.shell import quoted
 from mixedlub.schema.table import BOOKKEEPING, Column, check_column, sd_column
 from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import fits, open_units, split, unit_of, words_of
@@ -165,7 +165,7 @@ def _named_header(column: str, cells: Cells, answers: Answers) -> str:
     header = str(answers[COLUMNS + column])
     where = COLUMNS + column
     if header not in cells:
-        one = f"; if all rows have it: --set {shlex.quote(f'{VALUES}{column}={header}')}"
+        one = f"; if all rows have it: --set {quoted(f'{VALUES}{column}={header}')}"
         rule = f"no such header; {nearest(header, cells)}" + (one if column in TEXT_COLUMNS else "")
         raise InputError(rule, where=where, value=header)
     if is_logarithm(header):

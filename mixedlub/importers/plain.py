@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shlex
 from collections.abc import Collection, Iterator
 
 import numpy as np
@@ -34,6 +33,7 @@ from mixedlub.importers.two_forces import COEFFICIENT, over_load
 from mixedlub.importers.vocabulary import convert
 from mixedlub.kinds import KINDS, Kind
 from mixedlub.kinds import kind as kind_of
+from mixedlub.running.shell import quoted
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.table import Column, is_number
 from mixedlub.schema.toml_file import toml_value
@@ -133,7 +133,7 @@ def _pooled(free: Cells, conditions: Collection[np.ndarray], file: str) -> Itera
     """A finding for every column left out that distinguishes things whose rows are then pooled."""
     for header, cells in grouping_columns(free, conditions):
         value = toml_value(cells[0]) if not is_number(cells[0]) and re.search(r"[^\w-]", cells[0]) else cells[0]
-        setting = shlex.quote(f"{ONLY}{header}={value}")
+        setting = quoted(f"{ONLY}{header}={value}")
         text = f"{header!r} is not taken, so {pooled_words(cells)}; to import one of them: --set {setting}"
         yield finding("things_pooled", text, file)
 
