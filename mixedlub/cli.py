@@ -32,6 +32,7 @@ from mixedlub.commands import (
     parts,
     profile,
     prove,
+    schema,
     simulate,
     study,
 )
@@ -69,6 +70,7 @@ COMMANDS = (
     import_files,
     new,
     kinds,
+    schema,
     effects,
     friction_laws,
     parts,

@@ -14,10 +14,7 @@ from mixedlub.commands.console import ask, echo, named_folder
 from profiles.errors import InputError
 
 NAME = "import"
-EXAMPLE = (
-    "mixedlub new case --out rig\n"
-    "mixedlub import rig/recordings.csv --answers rig/system.toml --out imported"
-)
+EXAMPLE = "mixedlub new case --out rig\nmixedlub import rig/recordings.csv --answers rig/system.toml --out imported"
 
 
 def command(
