@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.base_model.balanced import overloaded
 from mixedlub.case.forward import Forward
-from mixedlub.laws.balanced import overloaded
 from mixedlub.laws.contact import asperity_load_ratio, mean_hertz_pressure
 from mixedlub.laws.load import carries_load
 from mixedlub.schema.findings import Finding, Severity, finding

@@ -2,15 +2,15 @@ r"""Film and asperities that share the load of a line contact, after Johnson, Gr
 
 The film carries the share :math:`1/\gamma` of the load. It then is as thick as in a smooth contact with
 :math:`w/\gamma` for the load and :math:`E'/\gamma` for the modulus, which has the same width. The asperities carry
-the rest; `mixedlub.laws.balanced` finds the film at which both add up.
+the rest; `mixedlub.base_model.balanced` finds the film at which both add up.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.chain.powers import power
 from mixedlub.laws.film import ELASTIC
-from mixedlub.laws.powers import power
 
 
 def full_load_film(film_thickness: np.ndarray) -> np.ndarray:

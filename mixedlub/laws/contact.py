@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.chain.powers import power
 from mixedlub.chain.slots import ASPERITY_AREA, ASPERITY_LOAD
-from mixedlub.laws.powers import power
 from roughness.integrals import area_integral, load_integral
 
 GREENWOOD_WILLIAMSON = "elastic asperities of Greenwood and Williamson against a smooth plane"

@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mixedlub.chain.powers import power
 from mixedlub.chain.slots import FILM
-from mixedlub.laws.powers import power
 
 
 class Regression(NamedTuple):

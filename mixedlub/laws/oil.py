@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.chain.powers import power
 from mixedlub.chain.slots import VISCOSITY
-from mixedlub.laws.powers import power
 
 ROELANDS_PRESSURE = 1.96e8
 ROELANDS_LOG = 9.67

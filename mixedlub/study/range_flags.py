@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 
 import numpy as np
 
-from mixedlub.laws.balanced import EXACT, overloaded
+from mixedlub.base_model.balanced import EXACT, overloaded
 from mixedlub.rig.plausibility import yields
 from mixedlub.schema.findings import Finding
 from mixedlub.study.batch import BEYOND, FILM_OVER_WIDTH

@@ -7,11 +7,11 @@ import csv
 import numpy as np
 import pytest
 
+from mixedlub.base_model.balanced import balanced_film, sharing_exponent
 from mixedlub.chain.slots import ASPERITY_AREA, ASPERITY_LOAD, FILM
 from mixedlub.friction import BASE
 from mixedlub.laws import contact, yielding
 from mixedlub.laws.balance import least_film_share
-from mixedlub.laws.balanced import balanced_film, sharing_exponent
 from mixedlub.laws.film import dowson_toyoda, moes
 from mixedlub.schema.findings import Severity, codes
 from mixedlub.study import read_study, run_study
@@ -266,7 +266,7 @@ def test_a_balance_with_another_law_of_friction_is_refused(write_study):
 
 def test_a_balance_that_is_not_found_is_told(write_study, monkeypatch):
     """One iteration is too few."""
-    monkeypatch.setattr("mixedlub.laws.balanced._MOST_STEPS", 1)
+    monkeypatch.setattr("mixedlub.base_model.balanced._MOST_STEPS", 1)
     told = out_of_range(results(write_study, surfaces=ROUGH))
     assert "balance_not_found" in codes(told)
     assert next(one for one in told if one.code == "balance_not_found").severity == "doubt"

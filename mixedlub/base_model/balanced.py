@@ -99,7 +99,7 @@ def _root(film: np.ndarray, pressure: np.ndarray, k: float, carried: Callable[[n
 def balanced(chain: Chain) -> Chain:
     """The chain with a film that shares the load with the asperities, by the laws which the chain has for both.
 
-    >>> from mixedlub.laws.base_models import LINE
+    >>> from mixedlub.base_model.chains import LINE
     >>> names = [name for name, _ in balanced(LINE)]
     >>> names[names.index("full_load_film") :][:3]
     ['full_load_film', 'film_thickness', 'film_load_share']
