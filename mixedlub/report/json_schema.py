@@ -82,7 +82,7 @@ def _property(found: dict[str, Any], key: Key) -> dict[str, Any]:
     elif other and "$ref" not in json.dumps(form) and declared != {None} and other not in declared:
         form = {"anyOf": [form, {"type": other}]}
     meaning = f"{key.meaning} ({key.unit})" if key.unit else key.meaning
-    kept = {name: found[name] for name in ("default", "examples") if name in found}
+    kept: dict[str, Any] = {name: found[name] for name in ("default", "examples") if name in found}
     return {**form, "description": meaning, **kept}
 
 
