@@ -13,7 +13,8 @@ import roughness
 HOME = Path(mixedlub.__file__).parent
 BESIDE = [Path(package.__path__[0]) for package in (profiles, roughness)]
 CHAINS = re.compile(
-    r"\b(that of|those of|those that|what|whose|of which|its own|where there|where it|none where|as it|is no|the one)\b",
+    r"\b(that of|those of|those that|what|whose|of which|its own|where there|where it|none where|as it|is no"
+    r"|the one)\b",
     re.IGNORECASE,
 )
 """Words that stand for a noun which the reader must find."""
