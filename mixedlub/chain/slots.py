@@ -84,3 +84,15 @@ SLIDING_POWER = Slot(
 )
 SLOTS = (FILM, ASPERITY_AREA, ASPERITY_LOAD, VISCOSITY, SHEAR, FILM_FRICTION, MIXTURE, SLIDING_POWER)
 """In the order of the chain. Slots of one option take the laws of one name."""
+
+STEPS: Mapping[str, tuple[str, ...]] = {
+    "contact of the asperities": ("asperities", "heights"),
+    "film thickness": ("film", "film_roughness", "balance"),
+    "friction of film and asperities together": ("mixture", "friction"),
+    "load of film and asperities": ("balance", "film", "film_roughness", "asperities", "heights", "friction"),
+    "load sharing of the teeth": ("averaging",),
+    "shear of the film": ("effective_viscosity",),
+    "viscosity over temperature": (),
+    "viscosity under pressure": ("viscosity_law", "viscosity_pressure"),
+}
+"""Steps that an effect may replace, each with the options that choose a law of it or a law which it contains."""

@@ -75,6 +75,7 @@ def known_effects(
     """
     own = known_in(kind)
     effects = tuple(own[e.id] for e in find(sorted(section), "effects"))
+    _refuse_second_law(effects)
     values: dict[str, dict[str, float]] = {}
     sds: dict[tuple[str, str], float] = {}
     for e in effects:
@@ -106,6 +107,16 @@ def known_effects(
             elif value > 0:
                 sds[e.id, name] = float(value)
     return Known(effects, values, sds)
+
+
+def _refuse_second_law(effects: Sequence[Effect]) -> None:
+    """Refuse two effects that replace the same step."""
+    by_step: dict[str, Effect] = {}
+    for e in effects:
+        first = by_step.setdefault(e.replaces or e.id, e)
+        if first is not e:
+            rule = f"and effects.{first.id} are two laws of one step, the {e.replaces}; leave one of them out"
+            raise InputError(rule, where=f"effects.{e.id}")
 
 
 def _of_law(e: Effect, law: float | str | None) -> dict[str, float]:
