@@ -14,7 +14,7 @@ from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.mixed import Asperities, laws, solve_mixed, yielding
 from mixedlub.ehl.oil.file import oil_of
 from mixedlub.ehl.oil.oil import Oil
-from mixedlub.ehl.solve import STEEL, Way, build_contacts, check
+from mixedlub.ehl.solve import Way, build_contacts, check
 from mixedlub.gear import mesh
 from mixedlub.gear.build import gear_pair, sharing
 from mixedlub.laws.contact import reduced_modulus
@@ -22,6 +22,7 @@ from mixedlub.laws.load import gear_line_load
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.schema.findings import Finding, collected
 from mixedlub.schema.section import Number, Section, Whole, examples, key
+from mixedlub.schema.surface_file import STEEL
 from mixedlub.schema.system_file import Gears
 from mixedlub.schema.toml_file import parse, read_toml
 from profiles.errors import InputError
