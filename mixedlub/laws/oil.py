@@ -12,6 +12,8 @@ ROELANDS_LOG = 9.67
 ZERO_CELSIUS = 273.15
 LARGEST_LOG = 500.0
 """Logarithm of a viscosity's rise that stands for any above, far beyond every liquid: it stays a number."""
+LIQUID = {"contact_viscosity": (0.0, 1e12)}
+"""Definition. Range of laws of viscosity under pressure (Pa s): an oil with more is a glass."""
 
 
 def kinematic_viscosity(
@@ -116,7 +118,7 @@ def warmed_viscosity(
     return viscosity * (1.0 + (1.0 + 0.7 / nu) * np.expm1(gone))
 
 
-@VISCOSITY.offers("roelands", "viscosity in the contact by Roelands")
+@VISCOSITY.offers("roelands", "viscosity in the contact by Roelands", LIQUID)
 def roelands_viscosity(viscosity: np.ndarray, pressure_viscosity: np.ndarray, hertz_pressure: np.ndarray) -> np.ndarray:
     r"""Viscosity under pressure (Pa s), isothermal.
 
@@ -170,7 +172,9 @@ def roelands_coefficient(viscosity: np.ndarray, exponent: float) -> np.ndarray:
     return exponent * (np.log(viscosity) + ROELANDS_LOG) / ROELANDS_PRESSURE
 
 
-@VISCOSITY.offers("modulus", "viscosity in the contact by the modulus equation, of an oil that has its constants")
+@VISCOSITY.offers(
+    "modulus", "viscosity in the contact by the modulus equation, of an oil that has its constants", LIQUID
+)
 def modulus_viscosity(
     viscosity: np.ndarray, pressure_modulus: np.ndarray, modulus_slope: np.ndarray, hertz_pressure: np.ndarray
 ) -> np.ndarray:
@@ -200,7 +204,7 @@ def modulus_rise(pressure_modulus: np.ndarray, modulus_slope: np.ndarray, pressu
     return np.where(stiffness > pressure / LARGEST_LOG, pressure / np.maximum(stiffness, 1.0), LARGEST_LOG)
 
 
-@VISCOSITY.offers("barus", "viscosity in the contact by Barus (far too high above 0.3 GPa)")
+@VISCOSITY.offers("barus", "viscosity in the contact by Barus (far too high above 0.3 GPa)", LIQUID)
 def barus_in_contact(viscosity: np.ndarray, pressure_viscosity: np.ndarray, hertz_pressure: np.ndarray) -> np.ndarray:
     r"""Barus viscosity at the largest Hertz pressure (Pa s), :math:`\eta_0 e^{\alpha p_0}`.
 

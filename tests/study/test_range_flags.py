@@ -10,7 +10,6 @@ import pytest
 import mixedlub as ml
 from mixedlub.case.folder import read_case
 from mixedlub.case.forward import Forward
-from mixedlub.case.overloaded import overloaded_asperities
 from mixedlub.laws.contact import line_hertz_half_width
 from mixedlub.schema.findings import Severity, codes
 from mixedlub.study import read_study, run_study
