@@ -198,6 +198,7 @@ def _checked(case: Case, forward: Forward | None) -> tuple[list[Finding], list[s
         readings = np.asarray(case.recordings[case.quantity], dtype=float)
         try:
             found += check_readings(case, case.recordings, readings, forward)
+            found += judge_rows(forward).findings
         except InputError as error:
             refused.append(f"Cannot be diagnosed: {error}.")
     if case.recordings is not None and case.recordings.ignored:

@@ -24,7 +24,7 @@ from mixedlub.recording.noise import (
     transformed_noise,
 )
 from mixedlub.rig.plausibility import implausible
-from mixedlub.schema.findings import Finding, Severity, finding, listed
+from mixedlub.schema.findings import Finding, Severity, finding, gravest_first, listed
 from mixedlub.schema.ranges import ranges
 from mixedlub.schema.table import Table
 from mixedlub.schema.units import UNITS, unit_of
@@ -63,7 +63,8 @@ CONTRADICTING = 4.0
 
 def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[Finding]:
     """Findings on the files and the readings; an error where the recording cannot be diagnosed."""
-    return [*implausible(case.rig), *check_readings(case, rows, y, forward), *_noise_source(case, y)]
+    found = [*implausible(case.rig), *check_readings(case, rows, y, forward), *judge_rows(forward).findings]
+    return [*gravest_first(found), *_noise_source(case, y)]
 
 
 def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[Finding]:
@@ -82,7 +83,6 @@ def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> 
         *_scarce(y),
         *_thin(case, y, forward),
         *of_odd_units(case, rows, y, base, FEWEST, SCARCE),
-        *judge_rows(forward).findings,
         *_more_than_put_in(case, rows, y),
         *_of_one_sign(case, rows, y),
         *_sliding(rows),

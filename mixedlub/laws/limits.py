@@ -24,7 +24,10 @@ BROAD = 1.5
 
 FILMS = ("film_thickness", "law_film", "regression_film")
 """Steps of film laws, which an effect may replace."""
-BALANCE = '; with the options balance "johnson_greenwood_poon" and mixture "load_weighted" the film gives way'
+BALANCE = (
+    '; with the options balance "johnson_greenwood_poon" and mixture "load_weighted" the film gives way, and friction '
+)
+"follows the load that asperities carry"
 """Advice on overloaded asperities in studies that can share the load."""
 
 
@@ -51,8 +54,8 @@ _OF_CONTACTS = (
         "film_above_contact_width",
         "film_over_contact_width",
         _SHARE,
-        "the film is thicker than the contact is wide, so that no film law and no loss holds: check oil_temperature_C and "
-        "the viscosity of the oil",
+        "the film is thicker than the contact is wide, so that no film law and no loss holds: check oil_temperature_C "
+        "and the viscosity of the oil",
         _SHARE,
         _SHARE,
     ),
@@ -68,7 +71,8 @@ _OF_CONTACTS = (
         "asperities_overloaded",
         "asperity_load_ratio",
         (0.0, 1.0 + EXACT),
-        "asperities would carry more than the load at the gap of the film law: boundary area and friction are too large",
+        "asperities would carry more than the load at the gap of the film law: boundary area and friction are "
+        "too large",
     ),
     Limit(
         "film_carries_too_little",

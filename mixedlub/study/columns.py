@@ -221,7 +221,7 @@ COLUMNS = {c.output: c for c in (*FIRST, *ends_of_bands(FIRST), *FURTHER, *ends_
 CHECKS = {
     "largest_area_ratio": "boundary area ratio where asperities carry most, as asperity_load_ratio has it",
     "balance_error": "part of the load by which film and asperities together miss it, the largest of the same places",
-    "share_lacking": "least load share that the film law is for over the film's own, where asperities carry 5 % or more",
+    "share_lacking": "least load share that the film law is for over the film's own, where asperities carry 5 %",
 }
 """Meaning of the checks of a computation that no table has."""
 OF_VALIDITY = Column(
