@@ -36,7 +36,7 @@ def gearbox_efficiency(file: str | PathLike[str]) -> xr.Dataset:
     with collected() as findings:
         gearbox, notes = read_gearbox(as_path(file, "gearbox_efficiency: file"))
         losses = gearbox.map()
-    warn_of([*findings, *notes])
+    warn_of([*losses.findings, *findings, *notes])
     levels = gearbox.file.conditions
     shape, axes = (len(levels.torque_Nm), len(levels.speed_rpm)), ("torque_Nm", "speed_rpm")
 

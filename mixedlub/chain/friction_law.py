@@ -12,7 +12,7 @@ import numpy as np
 from mixedlub.chain.documented import Coefficient, Documented
 from mixedlub.chain.model import Law
 from mixedlub.chain.plain_text import plain_equation
-from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.chain.quantities import GLOSSARY, unit_and_factor
 from mixedlub.chain.ranges import beyond
 from profiles.errors import nearest
 
@@ -20,11 +20,6 @@ Place = Literal["contact", "mesh"]
 PLACES: Mapping[Place, str] = {"contact": "every contact point", "mesh": "one value for the mesh"}
 NEAR_REST = 0.02
 """Judgement. Slide-to-roll ratio below which a law that diverges without sliding is flagged."""
-_SHOWN = {"m^2/s": ("mm²/s", 1e6), "m": ("µm", 1e6), "Pa": ("MPa", 1e-6)}
-"""Unit in which a page gives a quantity, and the factor from SI."""
-_OWN_UNIT = {"load_intensity": ("N/mm²", 1e-6), "radius": ("mm", 1e3), "pitch_radius": ("mm", 1e3)}
-
-
 Limits = tuple[str | None, str, float]
 """Coefficients that are the ends of a range, the lower one zero where none is, and their factor to SI."""
 
@@ -130,12 +125,6 @@ class FrictionLaw(Documented):
 def shown_unit(quantity: str) -> str:
     """Unit in which a page gives a quantity."""
     return unit_and_factor(quantity)[0].removeprefix("-")
-
-
-def unit_and_factor(quantity: str) -> tuple[str, float]:
-    """That unit, and the factor to it from SI."""
-    unit = GLOSSARY[quantity].unit
-    return _OWN_UNIT.get(quantity) or _SHOWN.get(unit, (unit, 1.0))
 
 
 def _range(name: str, low: float, high: float) -> str:

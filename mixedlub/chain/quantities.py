@@ -32,6 +32,7 @@ transverse_radius       | R_y        | m       | reduced radius across the direc
 entrainment_speed       | u          | m/s     | mean of the two surface speeds
 sliding_speed           | v_s        | m/s     | difference of the two surface speeds, without sign
 moes_load               | M          | -       | Moes' load parameter of a line contact
+isoviscous_ratio        | q_EI       | -       | isoviscous elastic over piezoviscous elastic film
 slide_roll_ratio        | S          | -       | sliding speed over entrainment speed
 roll_angle              | theta      | rad     | pinion roll angle of the contact point
 path_fraction           | xi         | -       | place along the path of contact, 0 at its start and 1 at its end
@@ -203,3 +204,13 @@ def _read() -> dict[str, Quantity]:
 
 GLOSSARY: dict[str, Quantity] = _read()
 """Quantity by name."""
+
+_SHOWN = {"m^2/s": ("mm²/s", 1e6), "m": ("µm", 1e6), "Pa": ("MPa", 1e-6)}
+"""Unit in which a page gives a quantity, and the factor from SI."""
+_OWN_UNIT = {"load_intensity": ("N/mm²", 1e-6), "radius": ("mm", 1e3), "pitch_radius": ("mm", 1e3)}
+
+
+def unit_and_factor(quantity: str) -> tuple[str, float]:
+    """Unit in which a page gives a quantity, and the factor to it from SI."""
+    unit = GLOSSARY[quantity].unit
+    return _OWN_UNIT.get(quantity) or _SHOWN.get(unit, (unit, 1.0))

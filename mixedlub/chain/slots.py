@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from typing import Any, TypeVar
 
+from mixedlub.chain.ranges import holds_within
 from mixedlub.schema.discovery import loaded
 
 Law = TypeVar("Law", bound=Callable[..., Any])
@@ -56,7 +57,7 @@ class Slot:
             if "Source: " not in (inspect.getdoc(law) or ""):
                 raise TypeError(f"{self.option} = {name!r}: the docstring of its law names no 'Source: '")
             self._offered[name] = Choice(name, meaning, law, valid or {})
-            return law
+            return holds_within(valid or {})(law)
 
         return register
 

@@ -49,7 +49,7 @@ def command(
         with busy("computing"):
             losses, at = gearbox.map(), gearbox.at_cycle()
             cycles = mesh_cycles(gearbox, at)
-    print_findings(notes)
+    print_findings([*losses.findings, *notes])
     _say_unconfirmed(gearbox)
     made = {
         "map": tables.map_table(losses),
@@ -93,11 +93,6 @@ def _print(made: dict[str, pd.DataFrame], at: Losses) -> None:
     share = made["breakdown"].iloc[:-1].groupby("origin", sort=False)["loss_W"].sum()
     parts = ", ".join(f"{origin} {value:.4g}" for origin, value in share.items())
     echo(f"  gearbox: efficiency {100.0 * at.efficiency()[0]:.3f} %, loss {at.total()[0]:.4g} W ({parts})")
-    outside = int((made["map"]["validity"] != "valid").sum())
-    if outside:
-        note(
-            f"{outside} of {len(made['map'])} conditions of the map are outside a law's range; see its column validity"
-        )
     if "duty_summary" in made:
         row = made["duty_summary"].to_dict("records")[0]
         mean = row["mean_gearbox_efficiency_percent"]

@@ -38,10 +38,9 @@ def command(
     system.toml names are part of the model, as in the folder improved of a diagnosis.
     """
     from mixedlub.case.folder import read_case, read_conditions, unpredicted_runs
-    from mixedlub.case.simulation import simulate, simulated_tables
-    from mixedlub.diagnosis.assessment.validity import known_beyond_range
+    from mixedlub.case.simulation import simulate
     from mixedlub.rig.plausibility import implausible
-    from mixedlub.schema.findings import collected
+    from mixedlub.schema.findings import collected, gravest_first
 
     with collected() as notes, input_errors_from(str(case)):
         found = read_case(case_folder(case), need_recordings=False)
@@ -49,9 +48,8 @@ def command(
         notes += unpredicted_runs(found, found.conditions) if at is None else []
         asked = None if at is None else read_conditions(found, at)
         rows = simulate(found, asked)
-        notes += [one for table in simulated_tables(found, asked) for one in known_beyond_range(found, table)]
     folder = output_folder(out, NAME, found.name)
-    print_findings(dict.fromkeys(notes))
+    print_findings(gravest_first(dict.fromkeys(notes)))
     with writing(folder) as aside:
         rows.to_csv(aside / "simulation.csv", index=False, lineterminator="\n")
     echo(f"{len(rows)} rows of {found.quantity} in {folder / 'simulation.csv'}")

@@ -8,10 +8,6 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from mixedlub.case.folder import Case
-from mixedlub.case.forward import Forward
-from mixedlub.kinds.disc import contact_inputs
-from mixedlub.laws.contact import line_hertz_pressure, point_hertz_pressure
-from mixedlub.rig.plausibility import YIELD_RATIO, yields
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.ranges import atypical
 from mixedlub.schema.table import Table
@@ -120,7 +116,6 @@ def of_odd_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewes
     return [
         *atypical_sizes(rows, y, case.quantity),
         *too_thick(rows, y, case.quantity),
-        *too_hard_pressed(case, rows),
         *of_another_unit(case, y, base, fewest),
         *(conditions_of_two_units(case, rows, y, base) or of_two_units(case, rows, y, base, scarce)),
     ]
@@ -144,44 +139,6 @@ def too_thick(rows: Table, y: np.ndarray, quantity: str) -> list[Finding]:
     if "pressure_MPa" in rows and rows["pressure_MPa"].min() > LOW_PRESSURE:
         return []
     return atypical(f"recordings.{quantity}", float(np.min(y)), f"the smallest {quantity}")
-
-
-def too_hard_pressed(case: Case, rows: Table) -> list[Finding]:
-    """Loads at which the Hertz pressure of a contact exceeds the yield limit of hard bodies."""
-    contact = case.system.contact
-    if contact is None or "load_N" not in rows:
-        return []
-    values = contact_inputs(contact, rows)
-    load = np.max(rows["load_N"])
-    if contact.geometry == "line":
-        width = values.get("contact_width")
-        pressure = line_hertz_pressure(load / width, values["radius"], values["reduced_modulus"]) if width else 0.0
-    else:
-        radius = values["radius"]
-        pressure = point_hertz_pressure(load, radius, values["transverse_radius"], values["reduced_modulus"])
-    return _yielding(
-        f"the largest load_N, {load:g}", float(pressure), values["reduced_modulus"], "load_N and the radii in [contact]"
-    )
-
-
-def teeth_too_hard_pressed(case: Case, rows: Table, forward: Forward) -> list[Finding]:
-    """Torques at which the Hertz pressure exceeds the yield limit of the tooth flanks."""
-    if case.system.gears is None or "torque_Nm" not in rows:
-        return []
-    pressure, modulus = (np.max(forward.base_quantity(name)) for name in ("hertz_pressure", "reduced_modulus"))
-    where = f"the largest torque_Nm, {np.max(np.abs(rows['torque_Nm'])):g}"
-    return _yielding(where, pressure, modulus, "torque_Nm, and module and face width in [gears]")
-
-
-def _yielding(where: str, pressure: float, modulus: float, cause: str) -> list[Finding]:
-    """A finding where hard bodies of this reduced modulus (Pa) would yield at this pressure (Pa)."""
-    if not yields(np.array(pressure), modulus):
-        return []
-    text = (
-        f"the Hertz pressure would be {1e-9 * pressure:.3g} GPa, where hard bodies yield below "
-        f"{1e-9 * YIELD_RATIO * modulus:.2g} GPa: check the unit of {cause}"
-    )
-    return [finding("pressure_above_yield", text, where)]
 
 
 SIZED = ("entrainment_speed_m_s", "sliding_speed_m_s", "film_thickness_nm")

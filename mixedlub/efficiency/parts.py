@@ -10,8 +10,10 @@ import numpy as np
 
 from mixedlub.chain.documented import check_given
 from mixedlub.chain.part_law import GIVEN, Kind, PartLaw
+from mixedlub.chain.ranges import UNBOUNDED, Limit, Reached, declared
 from mixedlub.efficiency.file import Bearing, Churning, Part, Stage
 from mixedlub.gear import GearPair
+from mixedlub.laws.drag import FAST_BATH, bath_acceleration
 from mixedlub.parts import find, series_coefficients
 from mixedlub.rig.lubricant import Lubricant
 from profiles.errors import InputError
@@ -26,6 +28,8 @@ KINDS: Mapping[str, Kind] = {
     "others": "other",
 }
 """Tables of a stage and the kind of their parts."""
+BATH = "bath_acceleration"
+"""Quantity that decides about the law of churning."""
 OF_ANY_LAW = {"law", "coefficients", "factor", "count", "shaft", "wheel", "series"}
 OF_LOAD = {"radial_share", "axial_share", "radial_load_N", "axial_load_N"}
 """Keys from which the loads of a bearing follow."""
@@ -49,6 +53,19 @@ class StagePart:
         found = np.asarray(self.law.law(*(state[name] for name in self.law.reads), **self.coefficients))
         power = found * own if self.law.kind in ("bearing", "seal", "other") else found
         return np.broadcast_to(self.section.factor * self.section.count * power, torque.shape)
+
+    def reached(self, pair: GearPair, speed: np.ndarray) -> Reached:
+        """Limits of its law with their values at speeds (rad/s) of the pinion."""
+        if BATH not in declared(self.law.law):
+            return []
+        own = speed if self.side == 0 else speed / pair.gear_ratio
+        size = (pair.operating_radius[self.side], pair.face_width, pair.normal_module)
+        bath = bath_acceleration(own, *map(np.asarray, size))
+        advice = (
+            f"churning of {self.name} by {self.law.title} goes over to the law of high speed, which viscosity does not "
+            f"enter, between the ends of this range and {FAST_BATH:g} m/s^2: the loss may change by a factor there"
+        )
+        return [(Limit("churning_law_changes", BATH, declared(self.law.law)[BATH], advice, UNBOUNDED), bath)]
 
     def _given(self) -> dict[str, float]:
         values = self.section.model_dump()

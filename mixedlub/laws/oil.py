@@ -27,6 +27,8 @@ D341_TERMS = (
 """Source: ASTM D341. Sign, start and fall of the exponential terms C to H."""
 D341_STEPS = 12
 """Newton's steps of the inverse, with margin: eight reach rounding from 0.21 to 2 mm^2/s."""
+LIQUID = {"contact_viscosity": (0.0, 1e12)}
+"""Definition. Range of laws of viscosity under pressure (Pa s): an oil with more is a glass."""
 
 
 def kinematic_viscosity(
@@ -183,7 +185,7 @@ def warmed_viscosity(
     return viscosity * plain
 
 
-@VISCOSITY.offers("roelands", "viscosity in the contact by Roelands")
+@VISCOSITY.offers("roelands", "viscosity in the contact by Roelands", LIQUID)
 def roelands_viscosity(viscosity: np.ndarray, pressure_viscosity: np.ndarray, hertz_pressure: np.ndarray) -> np.ndarray:
     r"""Viscosity under pressure (Pa s), isothermal.
 
@@ -237,7 +239,9 @@ def roelands_coefficient(viscosity: np.ndarray, exponent: np.ndarray | float) ->
     return exponent * (np.log(viscosity) + ROELANDS_LOG) / ROELANDS_PRESSURE
 
 
-@VISCOSITY.offers("modulus", "viscosity in the contact by the modulus equation, of an oil that has its constants")
+@VISCOSITY.offers(
+    "modulus", "viscosity in the contact by the modulus equation, of an oil that has its constants", LIQUID
+)
 def modulus_viscosity(
     viscosity: np.ndarray, pressure_modulus: np.ndarray, modulus_slope: np.ndarray, hertz_pressure: np.ndarray
 ) -> np.ndarray:
@@ -267,7 +271,7 @@ def modulus_rise(pressure_modulus: np.ndarray, modulus_slope: np.ndarray, pressu
     return np.where(stiffness > pressure / LARGEST_LOG, pressure / np.maximum(stiffness, 1.0), LARGEST_LOG)
 
 
-@VISCOSITY.offers("barus", "viscosity in the contact by Barus (far too high above 0.3 GPa)")
+@VISCOSITY.offers("barus", "viscosity in the contact by Barus (far too high above 0.3 GPa)", LIQUID)
 def barus_in_contact(viscosity: np.ndarray, pressure_viscosity: np.ndarray, hertz_pressure: np.ndarray) -> np.ndarray:
     r"""Barus viscosity at the largest Hertz pressure (Pa s), :math:`\eta_0 e^{\alpha p_0}`.
 

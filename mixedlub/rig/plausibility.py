@@ -14,11 +14,6 @@ from mixedlub.schema.findings import Finding, collected, finding
 from mixedlub.schema.system_file import Contact, System
 from profiles.errors import InputError
 
-LEAST_HARD_MODULUS = 50e9
-"""Judgement. Reduced modulus (Pa) of metals, ceramics and glass at least."""
-YIELD_RATIO = 0.025
-"""Source: ISO 76. Hertz pressure over reduced modulus at which these yield: bearings are rated to 4.2 GPa, 0.018 of the
-modulus of steel; polymers bear a larger share."""
 MOST_BACKLASH = 0.1
 """Judgement. Backlash over normal module; ISO/TR 10064-2 recommends at least 0.02 to 0.05 for industrial gears."""
 BANDWIDTH = (1.0 - 1e-6, 1e5)
@@ -63,15 +58,6 @@ def _ellipticity(contact: Contact) -> Iterator[Finding]:
 
 def _reduced(radii: tuple[float, float]) -> np.ndarray:
     return np.asarray(1.0 / sum(1.0 / r for r in radii))
-
-
-def yields(pressure: np.ndarray, modulus: float) -> np.ndarray:
-    """Whether hard bodies of a reduced modulus (Pa) yield at a Hertz pressure (Pa); soft ones are not judged.
-
-    >>> yields(np.array([2e9, 12e9]), 226e9).tolist(), bool(yields(2e9, 2e9))
-    ([False, True], False)
-    """
-    return (np.asarray(pressure) > YIELD_RATIO * modulus) & (modulus >= LEAST_HARD_MODULUS)
 
 
 def _surface(rig: Rig, name: str) -> Surface | None:

@@ -72,6 +72,7 @@ def state_of(of: Oil, found: Contacts) -> State:
     }
     chain: tuple[tuple[str, Callable[..., Any]], ...] = (
         ("moes_load", film.moes_load),
+        ("isoviscous_ratio", film.isoviscous_ratio),
         ("film_thickness", film.dowson_toyoda),
         ("flash_per_friction", heating.flash_per_friction),
         *_SHEARED,

@@ -13,9 +13,11 @@ from typing import Any
 import numpy as np
 
 from mixedlub import friction
+from mixedlub.base_model.limits import law_limits
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Chain, Law, Model, Parameters
-from mixedlub.chain.slots import ASPERITY_LOAD, SLOTS
+from mixedlub.chain.ranges import Limit, of_law
+from mixedlub.chain.slots import ASPERITY_LOAD
 from mixedlub.effects import find
 from mixedlub.friction import FrictionLaw
 from mixedlub.gear import GearPair, Mesh
@@ -40,7 +42,7 @@ from mixedlub.study.friction_options import (
 )
 from mixedlub.study.heat import LOSS, heat_inputs, rating_inputs
 from mixedlub.study.heights import HeightTables, height_tables
-from mixedlub.study.options import FURTHER, RATED, at_hardness, ignored, study_chain
+from mixedlub.study.options import FURTHER, RATED, at_hardness, study_chain
 from mixedlub.study.origins import by_origin, losing
 from mixedlub.study.schema import Options, Pairings, Safety, StudyFile
 from profiles.errors import InputError, as_path, nearest, refuse_other
@@ -106,7 +108,7 @@ class Plan:
 
         ``also`` names quantities wanted beside its own.
         """
-        return by_origin(self._model((*also, *(name for valid in self.ranges.values() for name in valid))))
+        return by_origin(self._model((*also, *(limit.quantity for limit in self.limits))))
 
     def _model(self, checked: Iterable[str]) -> Model:
         of_balance = BALANCED if self.balanced else ()
@@ -122,22 +124,14 @@ class Plan:
         return self.safety is not None and self.safety.permissible_film_ratio is not None
 
     @cached_property
-    def ranges(self) -> Mapping[str, Mapping[str, tuple[float, float]]]:
-        """The range of every active effect and chosen law that has one, by its name: in SI, by quantity."""
-        unread = ignored(self.options, self._model(()))
-        chosen = [slot.choices[getattr(self.options, slot.option)] for slot in SLOTS if slot.option not in unread]
-        known = {e.id: e.valid_at(self.parameters[e.id]) for e in self.effects}
-        known |= {c.law.__name__: c.valid for c in chosen}
+    def limits(self) -> tuple[Limit, ...]:
+        """The range of every active effect and chosen law that has one, at points of the path."""
+        found = law_limits(self._model(()).steps, self.effects, self.parameters)
         if self.options.film_roughness != "none":
-            known["rough_film"] = {"film_over_roughness": (THINNEST, np.inf)}
+            found += of_law("rough_film", {"film_over_roughness": (THINNEST, np.inf)})
         if self.friction is not None:
-            known[self.friction.name] = {**self.friction.valid, "friction": (0.0, MOST_FRICTION)}
-        return {name: valid for name, valid in known.items() if valid}
-
-    @property
-    def range_ends(self) -> tuple[tuple[str, str, tuple[float, float]], ...]:
-        """Every range: its name, of the effect or law and the quantity, the quantity, and both ends in SI."""
-        return tuple((f"{n}:{q}", q, ends) for n, valid in self.ranges.items() for q, ends in valid.items())
+            found += of_law(self.friction.name, {**self.friction.valid, "friction": (0.0, MOST_FRICTION)})
+        return found
 
     @property
     def _of_heights(self) -> Mapping[str, Law]:
