@@ -76,6 +76,20 @@ def two(key: str, values: Any) -> tuple[Any, Any]:
     return entries
 
 
+def _only_external(teeth: tuple[Any, Any]) -> None:
+    """Refuse internal gears, whose number of teeth is negative by the convention of ISO 21771."""
+    if not all(isinstance(count, (int, float)) for count in teeth) or min(teeth) >= 0:
+        return
+    small, large = sorted(abs(count) for count in teeth)
+    off = f", and about {(large + small) / (large - small):.2g} times the loss factor" if small < large else ""
+    rule = (
+        "internal gears are not computed, and no external wheel stands for one: it has other sliding, another radius "
+        f"of curvature{off}; compute the external meshes of the set alone (sun and planet), and take the loss of the "
+        "ring's mesh from elsewhere"
+    )
+    raise InputError(rule, where="teeth", value=teeth)
+
+
 @dataclass(frozen=True)
 class GearPair:
     """A pair of external involute cylindrical gears; first entry of every pair is the driving pinion.
@@ -108,6 +122,7 @@ class GearPair:
 
     def __post_init__(self) -> None:
         teeth = two("teeth", self.teeth)
+        _only_external(teeth)
         for count in teeth:
             whole = number("teeth", count, 3, 10_000, "a number of teeth is a whole number from 4 to 9999")
             if whole != int(whole):
@@ -176,7 +191,8 @@ class GearPair:
                 )
         elif self.centre_distance <= nominal:
             raise InputError(
-                f"the centre distance must exceed the sum of the base radii, {nominal * 1e3:.6g} mm",
+                f"the centre distance must exceed the sum of the base radii, {nominal * 1e3:.6g} mm; internal gears are "
+                "not computed",
                 where="centre_distance_mm",
                 value=self.centre_distance * 1e3,
             )
