@@ -59,9 +59,7 @@ def material_ratio(profile: Profile, height: float) -> float:
 
 
 @of_profile
-def core_profile(
-    profile: Profile, *, convention: str = "ISO 4287:1997", sections: int | None = None
-) -> Profile:
+def core_profile(profile: Profile, *, convention: str = "ISO 4287:1997", sections: int | None = None) -> Profile:
     """One evaluation length in the middle of a profile: five cut-offs, or as many as fit. ISO 13565-1, ISO 21920-3.
 
     A stated number of ``sections``, or a convention of the profile as a whole, makes the profile the evaluation length.

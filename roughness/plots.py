@@ -111,9 +111,7 @@ def _judged(name: str, r: NormalProbability) -> str:
     return "\n".join(lines)
 
 
-def abbott_figure(
-    *profiles: Profile, convention: str = "ISO 4287:1997", sections: int | None = None
-) -> Figure:
+def abbott_figure(*profiles: Profile, convention: str = "ISO 4287:1997", sections: int | None = None) -> Figure:
     """Material ratio curve of each profile with the core line and Rk, Rpk, Rvk of ISO 13565-2.
 
     ``convention`` says how the line is laid through the core, and with ``sections`` which length the curve is of.

@@ -191,8 +191,8 @@ class GearPair:
                 )
         elif self.centre_distance <= nominal:
             raise InputError(
-                f"the centre distance must exceed the sum of the base radii, {nominal * 1e3:.6g} mm; internal gears are "
-                "not computed",
+                f"the centre distance must exceed the sum of the base radii, {nominal * 1e3:.6g} mm (internal gears "
+                "are not computed)",
                 where="centre_distance_mm",
                 value=self.centre_distance * 1e3,
             )
