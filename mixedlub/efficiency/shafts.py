@@ -160,13 +160,13 @@ def _by_shares(wheel: Wheel) -> Loads:
         if one.axial is not None:
             rule = "acts only with position_mm; without positions give axial_share"
             raise InputError(rule, where=f"stages.{wheel.stage}.bearings.{name}.axial", value=one.axial)
-    for key, force in (("radial_share", "mesh force"), ("axial_share", "axial force of the helical mesh")):
+    for key, meaning in (("radial_share", "mesh force"), ("axial_share", "axial force of the helical mesh")):
         total = sum(one.count * getattr(one, key) for one in wheel.bearings.values())
         unloaded = key == "axial_share" and not wheel.helical
         if abs(total - 1.0) > TOLERANCE and not (unloaded and total == 0.0):
             carried = "no bearing carries" if total == 0.0 else f"{key} adds up to {total:.4g}, not to 1, of"
             rule = (
-                f"{carried} the {force}: give {key} so that it adds up to 1 over the bearings of the shaft, times "
+                f"{carried} the {meaning}: give {key} so that it adds up to 1 over the bearings of the shaft, times "
                 "their count, as 1 on the fixed bearing and 0 on others; or position_mm of each"
             )
             raise InputError(rule, where=wheel.shaft)

@@ -323,8 +323,8 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     plan = Plan(inputs, options, parameters, shape, points.position.size, moved, heights, file.safety)
     check_friction(file, plan.model())
     if plan.reads_mean_roughness:
-        for one in mean_assumed(surfaces.values()):
-            report(one)
+        for found in mean_assumed(surfaces.values()):
+            report(found)
     if plan.balanced and options.mixture == "tallian":
         report(finding("balance_by_area", BY_AREA, "options.mixture"))
     return Study(name, file, rig, pair, points, oil, surfaces, chosen, effects, plan)
