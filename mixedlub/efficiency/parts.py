@@ -153,7 +153,7 @@ def check_name(name: str, where: str) -> None:
 
 def _wheel(pair: GearPair, side: int) -> dict[str, Any]:
     """Sizes of a wheel by the quantities of part laws."""
-    root = pair.reference_radius[side] + pair.normal_module * (pair.profile_shift[side] - 1.25)
+    root = pair.reference_radius[side] + pair.normal_module * (pair.profile_shift[side] - pair.dedendum)
     return {
         "wheel_radius": pair.operating_radius[side],
         "face_width": pair.face_width,

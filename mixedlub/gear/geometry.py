@@ -95,7 +95,8 @@ class GearPair:
     """A pair of external involute cylindrical gears; first entry of every pair is the driving pinion.
 
     Lengths in m, angles in rad, moduli in Pa. ``tip_radius=None`` takes the standard addendum
-    ``r + m_n (1 + x)``; ``centre_distance=None`` takes the backlash-free one of the profile shifts.
+    ``r + m_n (1 + x)``; ``dedendum`` is that of the basic rack over the module, which elastic teeth read.
+    ``centre_distance=None`` takes the backlash-free one of the profile shifts.
     Anything that is not a working gear pair is refused with the name of its key in the ``[gears]`` table.
 
     Source: ISO 21771, geometry of cylindrical involute gears.
@@ -119,6 +120,7 @@ class GearPair:
     centre_distance: float | None = None
     youngs_modulus: Pair = (206e9, 206e9)
     poisson_ratio: Pair = (0.3, 0.3)
+    dedendum: float = 1.25
 
     def __post_init__(self) -> None:
         teeth = two("teeth", self.teeth)
@@ -167,6 +169,9 @@ class GearPair:
             "youngs_modulus": ("youngs_modulus_GPa", 0, 1e13, "Young's modulus is above zero", 1e-9),
             "poisson_ratio": ("poisson_ratio", -1, 0.5, "Poisson's ratio lies between -1 and 0.5", 1),
         }
+        checked["dedendum"] = number(
+            "dedendum", self.dedendum, 0.5, 3.0, "the dedendum of a rack lies between 0.5 and 3 modules"
+        )
         if self.tip_radius is not None:
             rules["tip_radius"] = ("tip_diameter_mm", 0, 100, "a tip diameter is above zero", 2e3)
         for name, (key, low, high, rule, scale) in rules.items():
