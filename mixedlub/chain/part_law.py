@@ -33,7 +33,7 @@ COMPUTED = {
     "gear_module": "normal module (m)",
     "wheel_teeth": "number of teeth (-)",
     "helix_angle": "helix angle (rad)",
-    "root_diameter": "root diameter of a standard dedendum, 1.25 modules (m)",
+    "root_diameter": "root diameter by the dedendum of the gears (m)",
     "tip_diameter": "tip diameter (m)",
 }
 """Quantities that follow from gears, oil and condition, each with its meaning."""

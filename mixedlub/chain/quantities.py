@@ -91,6 +91,7 @@ peklenik_number         | gamma      | -       | correlation length of heights a
 smooth_film             | h_0        | m       | film thickness if the surfaces were smooth
 film_over_roughness     | Lambda     | -       | film thickness over composite roughness at a point of the path
 composite_roughness     | sigma      | m       | root of the summed height variances
+mean_over_rms           | kappa      | -       | mean over rms roughness, sums of both surfaces
 mean_roughness          | Ra         | m       | arithmetic mean roughness, mean of both surfaces
 summit_density          | D          | 1/m^2   | summits per area
 summit_radius           | R_s        | m       | radius of a summit of mean curvature

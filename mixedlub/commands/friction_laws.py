@@ -77,6 +77,7 @@ def _compare(
     from mixedlub.chain.documented import few
     from mixedlub.report.friction_figures import figures
     from mixedlub.report.style import save
+    from mixedlub.rig.surface import mean_assumed
     from mixedlub.schema.toml_file import read_toml
     from mixedlub.study import read_study
     from mixedlub.study.friction_comparison import compared, mesh_table
@@ -87,7 +88,7 @@ def _compare(
         given: dict[str, Any] = {} if coefficients is None else _of_files(read_toml(coefficients), coefficients.parent)
         comparison = compared(read, given, pairing=pairing, **condition)
     folder = output_folder(out, NAME, read.name)
-    print_findings(read.notes)
+    print_findings(dict.fromkeys((*read.notes, *mean_assumed(read.surfaces.values()))))
     for name, lacking in comparison.left_out.items():
         note(f"{name} is left out: give {few(lacking)} in a file for --coefficients")
     if read.file.effects:

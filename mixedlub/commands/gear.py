@@ -49,9 +49,7 @@ def command(
         given, pair = problem.file.iso_6336, problem.pair
         loads = given.application_factor * found.torque / pair.reference_radius[0] / pair.face_width
         with collected() as notes:
-            iso = [
-                iso_stiffness(pair, load, dedendum=given.dedendum, blank_factor=given.blank_factor) for load in loads
-            ]
+            iso = [iso_stiffness(pair, load, blank_factor=given.blank_factor) for load in loads]
     for text in dict.fromkeys(str(one) for one in (*notes, *problem.sharing.check(pair))):
         note(text)
     folder = output_folder(out, NAME, file.stem)

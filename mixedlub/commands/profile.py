@@ -229,7 +229,7 @@ def _draw(
             drawn = {
                 "trace": plots.trace_figure(profile, convention=rule, sections=sections),
                 "probability": plots.probability_figure(profile),
-                "abbott": plots.abbott_figure(profile, convention=rule),
+                "abbott": plots.abbott_figure(profile, convention=rule, sections=sections),
                 "spectrum": plots.spectrum_figure(profile),
             }
             for kind, figure in drawn.items():

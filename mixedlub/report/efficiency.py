@@ -70,7 +70,7 @@ def breakdown_figure(title: str, losses: Losses) -> Figure:
 
 def _stacked(axis: Axes, losses: Losses, across: np.ndarray, chosen: np.ndarray) -> None:
     order = np.argsort(across[chosen])
-    origins = present(losses)
+    origins = [origin for origin in present(losses) if losses.total(origins=(origin,)).any()]
     stack = [losses.total(origins=(origin,))[chosen][order] for origin in origins]
     place = across[chosen][order]
     if place.size == 1:
@@ -113,7 +113,8 @@ def cycle_figure(title: str, cycles: Sequence[MeshCycle]) -> Figure:
         for one, colour in zip(cycles, shades(len(cycles)), strict=True):
             name = f"{one.stage.name}, {one.stage.driving} drives"
             axes[0].plot(one.phase, one.sliding, color=colour, label=f"{name}: sliding")
-            axes[0].plot(one.phase, one.rolling, color=colour, linestyle="--", label=f"{name}: rolling")
+            if one.rolling.any():
+                axes[0].plot(one.phase, one.rolling, color=colour, linestyle="--", label=f"{name}: rolling")
             axes[1].plot(one.phase, 100.0 * one.efficiency, color=colour)
             axes[1].axhline(100.0 * one.efficiency.mean(), color=colour, linestyle=":", linewidth=0.9)
             axes[2].plot(one.phase, one.friction, color=colour)

@@ -327,6 +327,7 @@ def surface(name: str, section: surface_file.SurfaceSection, found: Measured | N
         **values,
         lay=section.lay or ("transverse" if section.has_two_directions else None),
         peklenik=None if found is None else found.peklenik,
+        mean_over_rms=None if found is None else found.mean_over_rms,
         coating_thickness=0.0 if coating is None else coating.thickness_um * 1e-6,
         coating_conductivity=2.0 if coating is None else coating.thermal_conductivity_W_mK,
         conductivity=section.thermal_conductivity_W_mK,

@@ -96,6 +96,7 @@ class Gears(Section):
         "working centre distance; left out: by the profile shift", None, example=91.0
     )
     face_width_mm: Number = key("common face width", example=14.0)
+    dedendum: Number = key("dedendum of the basic rack over module, which elastic teeth read", 1.25)
     youngs_modulus_GPa: Pair = key("Young's moduli", (206.0, 206.0))
     poisson_ratio: Pair = key("Poisson's ratios", (0.3, 0.3))
     load_sharing: LoadSharing = key(

@@ -29,7 +29,7 @@ from mixedlub.rig.build import check_bandwidth
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.plausibility import implausible
 from mixedlub.rig.rig import Rig
-from mixedlub.rig.surface import Surface, paired
+from mixedlub.rig.surface import Surface, mean_assumed, mean_over_rms, paired
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, report
 from mixedlub.study.bands import Group, groups
@@ -158,6 +158,11 @@ class Plan:
     def losing(self) -> tuple[str, ...]:
         """The active effects that add a loss outside the mesh."""
         return losing(self.effects)
+
+    @property
+    def reads_mean_roughness(self) -> bool:
+        """Whether a law reads the arithmetic mean roughness."""
+        return any("mean_roughness" in step.outputs for step in self.model().steps)
 
     @property
     def balanced(self) -> bool:
@@ -311,6 +316,9 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     inputs |= rating_inputs(inputs, parameters)
     plan = Plan(inputs, options, parameters, shape, points.position.size, moved, heights, file.safety)
     check_friction(file, plan.model())
+    if plan.reads_mean_roughness:
+        for found in mean_assumed(surfaces.values()):
+            report(found)
     if plan.balanced and options.mixture == "tallian":
         report(finding("balance_by_area", BY_AREA, "options.mixture"))
     return Study(name, file, rig, pair, points, oil, surfaces, chosen, effects, plan)
@@ -369,6 +377,7 @@ def mesh_inputs(points: Mesh, share: np.ndarray, torque: np.ndarray, speed: np.n
 
 def surface_inputs(pairs: list[tuple[Surface, Surface]]) -> dict[str, np.ndarray]:
     """Inputs of the surfaces, pairing by pairing."""
-    both = paired([a for a, _ in pairs], [b for _, b in pairs])
+    first, second = [a for a, _ in pairs], [b for _, b in pairs]
+    both = {**paired(first, second), "mean_over_rms": mean_over_rms(first, second)}
     alike = {name for name in SOLIDS if np.ptp(both[name]) == 0.0}
     return {name: (v[:1] if name in alike else v).reshape(-1, 1, 1, 1, 1) for name, v in both.items()}

@@ -12,7 +12,7 @@ import pytest
 
 from mixedlub.cli import main
 from mixedlub.parts import catalogue, series
-from tests.efficiency.gearboxes import PARTS, STAGE, gearbox_file, written
+from tests.efficiency.gearboxes import AFTER, PARTS, STAGE, gearbox_file, written
 
 TABLES = {"map", "loss_map", "losses", "breakdown", "stages", "mesh_cycle", "tooth_pair"}
 DUTY = {"torque_Nm": [150.0, 0.0], "speed_rpm": [1000.0, 3000.0], "duration_h": [10.0, 5.0]}
@@ -21,7 +21,7 @@ DUTY = {"torque_Nm": [150.0, 0.0], "speed_rpm": [1000.0, 3000.0], "duration_h": 
 @pytest.fixture(scope="module")
 def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("command")
-    path = written(folder, gearbox_file(STAGE | PARTS, STAGE, duty=DUTY))
+    path = written(folder, gearbox_file(STAGE | PARTS, STAGE | AFTER, duty=DUTY))
     assert main(["efficiency", str(path), "--out", str(folder / "out")]) == 0
     return folder / "out"
 

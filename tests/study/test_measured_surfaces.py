@@ -12,7 +12,8 @@ from mixedlub.study import read_study, run_study
 from mixedlub.study.record import resolved
 from profiles import finishes
 from profiles.errors import InputError
-from roughness import evaluation_profile, moments
+from profiles.read import read
+from roughness import evaluation_profile, height_parameters, moments
 from roughness.areal import areal_moments, areal_roughness
 
 STEP = 0.5e-6
@@ -35,8 +36,6 @@ def traces(tmp_path):
 
 
 def test_moments_of_several_traces_are_the_means(traces, write_study, tmp_path):
-    from profiles.read import read
-
     study = read_study(write_study(surfaces={"a": {"traces": traces[0], "cutoff_mm": 0.8}}))
     each = [moments(evaluation_profile(read(tmp_path / name), cutoff=0.8e-3)) for name in traces[0]]
     for name in ("m0", "m2", "m4"):
@@ -253,3 +252,38 @@ def test_python_takes_surfaces_with_a_lay():
     assert ml.power_loss(pair, ml.oil("mineral"), ridged, **keys)["power_loss_W"].size == 1
     with pytest.raises(InputError, match="its lay is unknown"):
         ml.power_loss(pair, ml.oil("mineral"), (ridged, plain), **keys)
+
+
+class TestMeanRoughness:
+    """Laws that read Ra have the measured one; without a trace it is that of normal heights, which is said."""
+
+    CODE = "mean_roughness_assumed"
+
+    def studies(self, traces, write_study, friction):
+        cut = {"cutoff_mm": 0.8}
+        measured = {"a": {"traces": traces[0], **cut}, "b": {"traces": traces[1], **cut}}
+        by_trace = read_study(write_study(surfaces=measured, options={"friction": friction}))
+        stated = {
+            name: {"m0_um2": one.m0 * 1e12, "m2": one.m2, "m4_per_um2": one.m4 * 1e-12}
+            for name, one in by_trace.surfaces.items()
+        }
+        return by_trace, read_study(write_study(surfaces=stated, options={"friction": friction}))
+
+    def test_schlenk_reads_the_measured_one(self, traces, write_study, tmp_path):
+        """Ra^0.25 of both surfaces, against 0.798 Rq."""
+        by_trace, stated = self.studies(traces, write_study, "schlenk")
+        ra = {}
+        for name, files in zip("ab", traces, strict=True):
+            rough = [evaluation_profile(read(tmp_path / file), cutoff=0.8e-3) for file in files]
+            ra[name] = np.mean([height_parameters(one).Ra for one in rough])
+        rq = {name: one.m0**0.5 for name, one in stated.surfaces.items()}
+        ratio = run_study(by_trace)["power_loss"] / run_study(stated)["power_loss"]
+        for row, (a, b) in enumerate(by_trace.pairings):
+            expected = ((ra[a] + ra[b]) / ((2.0 / np.pi) ** 0.5 * (rq[a] + rq[b]))) ** 0.25
+            assert abs(expected - 1.0) > 1e-4
+            assert ratio[row] == pytest.approx(expected, rel=1e-6)
+
+    def test_the_assumption_is_said_once_where_a_law_reads_it(self, traces, write_study):
+        for friction, counts in (("schlenk", (0, 1)), ("tallian_mixture", (0, 0))):
+            studies = self.studies(traces, write_study, friction)
+            assert tuple(sum(one.code == self.CODE for one in study.notes) for study in studies) == counts
