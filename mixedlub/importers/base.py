@@ -25,6 +25,8 @@ Answers = Mapping[str, Any]
 
 SHEET = "import.sheet"
 """The sheet of a workbook that is read."""
+HIDDEN_ROWS = "import.hidden_rows"
+"""Whether hidden rows of a workbook are read: "take" or "leave"."""
 PART = re.compile(r'"[^"]*"|[^.]+')
 """A part of a dotted key; a name that contains a point is quoted."""
 
@@ -151,7 +153,7 @@ def refuse_unknown(answers: Answers, known: Sequence[str]) -> None:
     ...
     profiles.errors.InputError: import.evry: key is not known for this file; nearest known: 'import.every'
     """
-    keys = (EVERY.key, SHEET, *known)
+    keys = (EVERY.key, SHEET, HIDDEN_ROWS, *known)
     for key in answers:
         if PART.findall(key)[:1] == ["import"] and key not in keys:
             raise InputError(f"key is not known for this file; {nearest(key, keys)}", where=key)

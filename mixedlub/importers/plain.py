@@ -117,7 +117,7 @@ def draft(file: InputFile, answers: Answers) -> Draft:
     ]
     notes = [
         *(finding("decimal_mark_assumed", text, name) for text in sheet.notes),
-        *(finding("rows_left_out", text, name) for text in incomplete),
+        *(finding("rows_left_out", text, name) for text in (*filter(None, [sheet.summaries]), *incomplete)),
         *(finding("column_not_taken", text, name) for text in matched.warned),
         *pooled,
         *ratio_notes,

@@ -6,7 +6,7 @@ import csv
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -18,6 +18,7 @@ from mixedlub.importers.header import header_of
 from mixedlub.schema.table import LARGEST, are_numbers, is_missing, is_number
 from mixedlub.schema.units import words_of
 from profiles.errors import InputError, nearest
+from profiles.readers.workbook import UNCALCULATED
 
 SEPARATORS = "\t;,"
 UNIT = r"[(\[](?:[^()\[\]]|/\s*\([^()\[\]]*\))*[)\]]"
@@ -99,13 +100,19 @@ class TextColumn(list[str]):
 
 @dataclass(frozen=True)
 class Sheet:
-    """The cells of a table by header, the line of each row, which lines are outside the table, and notes."""
+    """The cells of a table by header, the line of each row, which lines are outside the table, and notes.
+
+    ``summaries`` says which rows of means or sums are left out. ``faults`` are cells that hold an error of a
+    spreadsheet or an infinite number, by header and line; they are empty in ``cells``.
+    """
 
     name: str
     cells: Cells
     lines: tuple[int, ...]
     left_out: str = ""
     notes: tuple[str, ...] = ()
+    summaries: str = ""
+    faults: Mapping[str, Mapping[int, str]] = field(default_factory=dict)
 
 
 def read_sheet(text: str, name: str, decimal: str | None = None) -> Sheet:
@@ -126,10 +133,59 @@ def read_sheet(text: str, name: str, decimal: str | None = None) -> Sheet:
     first, last = _table_rows(rows, name)
     header, n_lines = header_of([row for _, row in rows[:first]])
     above = first - n_lines
-    table = rows[first:last]
+    table, summaries = without_summaries(rows[first:last])
+    lines = tuple(number for number, _ in table)
     cells = {h: TextColumn(row[i] for _, row in table) for i, h in enumerate(header) if h}
+    faults = {h: found for h, column in cells.items() if (found := _cleared(column, lines))}
     parts = [part for part in (_range(rows[:above]), _range(rows[last:])) if part]
-    return Sheet(name, cells, tuple(number for number, _ in table), " and ".join(parts), tuple(notes))
+    return Sheet(name, cells, lines, " and ".join(parts), tuple(notes), summaries, faults)
+
+
+SUMMARY = re.compile(
+    r"(?:(?:arithmetic )?mean|averages?|avg|sum|total|median|std\.?|sd|s\.d\.|st\.? ?dev|std\.? ?dev|"
+    r"standard deviation|mittelwert|mittel|durchschnitt|summe|gesamt|stabw|standardabweichung)(?: ?values?)?\.?:?",
+    re.IGNORECASE,
+)
+"""Label of a row that summarises others."""
+
+
+def without_summaries(rows: Sequence[Line]) -> tuple[list[Line], str]:
+    """The rows without means and sums of others, by their labels, and words on these; a table of means keeps its rows.
+
+    >>> without_summaries([(2, ["1", "0.1"]), (3, ["2", "0.3"]), (4, ["Mean:", "0.2"])])
+    ([(2, ['1', '0.1']), (3, ['2', '0.3'])], "1 row left out, as it is labelled 'Mean:': line 4")
+    >>> without_summaries([(2, ["mean", "0.1"]), (3, ["sd", "0.3"])])[1]
+    ''
+    """
+    labels = {
+        number: next(label for label in map(SUMMARY.fullmatch, row) if label)[0]
+        for number, row in rows
+        if not all(map(is_number, row)) and any(map(SUMMARY.fullmatch, row))
+    }
+    if not labels or 2 * len(labels) > len(rows):
+        return list(rows), ""
+    named = ", ".join(map(repr, dict.fromkeys(labels.values())))
+    which = "as it is" if len(labels) == 1 else "as they are"
+    words = f"{count(len(labels), 'row')} left out, {which} labelled {named}: {places(list(labels))}"
+    return [line for line in rows if line[0] not in labels], words
+
+
+FAULT = re.compile(
+    r"#(?:DIV/0|VALUE|WERT|REF|BEZUG|NAME|NUM|ZAHL|NULL|SPILL|CALC|FORMULA)[!?]?|Err:\d+|"
+    r"[-+]?1\.#(?:INF|IND|QNAN)\d*|[-+]?inf(?:inity)?",
+    re.IGNORECASE,
+)
+"""Cell in which a program reports an error or an infinite number."""
+
+
+def _cleared(cells: TextColumn, lines: Sequence[int]) -> dict[int, str]:
+    """The cells without a number because of an error, by their line; they are emptied."""
+    if not {"#", "i", "I", "E"} & set("".join(set(cells))):
+        return {}
+    faults = {i: cell for i, cell in enumerate(cells) if FAULT.fullmatch(cell)}
+    for i in faults:
+        cells[i] = ""
+    return {lines[i]: cell for i, cell in faults.items()}
 
 
 def complete_rows(sheet: Sheet, needed: Sequence[str]) -> tuple[Sheet, list[str]]:
@@ -140,15 +196,28 @@ def complete_rows(sheet: Sheet, needed: Sequence[str]) -> tuple[Sheet, list[str]
     incomplete = {i for rows in missing.values() for i in rows}
     if len(incomplete) == len(sheet.lines):
         most = max(missing, key=lambda h: len(missing[h]))
-        raise InputError(f"no row is complete: {most!r} is missing in {len(missing[most])} of them", where=sheet.name)
+        rule = f"no row is complete: {most!r} is missing in {len(missing[most])} of them"
+        raise InputError(rule + _faults_of(sheet, most), where=sheet.name)
     complete = [i for i in range(len(sheet.lines)) if i not in incomplete]
     cells = {h: TextColumn(values[i] for i in complete) for h, values in sheet.cells.items()}
     notes = [
         f"{count(len(rows), 'row')} left out, as {h!r} is missing: {places([sheet.lines[i] for i in rows])}"
+        + _faults_of(sheet, h)
         for h, rows in missing.items()
         if rows
     ]
     return replace(sheet, cells=cells, lines=tuple(sheet.lines[i] for i in complete)), notes
+
+
+def _faults_of(sheet: Sheet, header: str) -> str:
+    """What stands in the cells of a column that are no numbers, and the way out."""
+    texts = list(dict.fromkeys(sheet.faults.get(header, {}).values()))
+    if UNCALCULATED in texts:
+        return (
+            "; it holds formulas whose values the file lacks: open it in Excel or LibreOffice and save it, then they "
+            "are calculated"
+        )
+    return f"; there is {', '.join(map(repr, texts[:NUMBERS_SHOWN]))} in its place" if texts else ""
 
 
 def is_numeric(cells: Sequence[str]) -> bool:
@@ -294,7 +363,7 @@ def _range(rows: Sequence[Line]) -> str:
 
 
 RUN_KEY = "import.columns.run"
-RUN_WORDS = ("run", "run number", "run no", "run no.", "run nr", "run nr.")
+RUN_WORDS = ("run", "run number", "run no", "run nr", "test no", "versuch nr", "lfd. nr", "lfd.nr", "nr", "no", "#")
 ANEW = "so readings are renumbered from 1"
 
 
@@ -303,7 +372,10 @@ def header_of_runs(sheet: Sheet, answers: Answers) -> str | None:
     named = answers.get(RUN_KEY)
     if named is not None and str(named) not in sheet.cells:
         raise InputError(f"no such header; {nearest(str(named), sheet.cells)}", where=RUN_KEY, value=named)
-    return str(named) if named is not None else next((h for h in sheet.cells if words_of(h) in RUN_WORDS), None)
+    if named is not None:
+        return str(named)
+    spoken = [words_of(header) for header in sheet.cells]
+    return next((h for words in RUN_WORDS for h, word in zip(sheet.cells, spoken, strict=True) if word == words), None)
 
 
 def runs_of(sheet: Sheet, header: str) -> tuple[np.ndarray | None, str | None]:
