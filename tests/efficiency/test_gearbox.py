@@ -16,7 +16,6 @@ from mixedlub.efficiency.mesh_cycle import mesh_cycle, mesh_cycles
 from mixedlub.efficiency.meshes import MOST_SOLVED, load_shares
 from mixedlub.efficiency.table import breakdown_table, duty_summary, duty_table, loss_map, map_table, part_table
 from mixedlub.study import read_study, run_study
-from mixedlub.study.columns import VALID
 from tests.efficiency.gearboxes import AFTER, PARTS, STAGE, gearbox, gearbox_file, written
 
 SECOND = STAGE | {"gears": {"preset": "h501"}, "lubricant": {"oil": "pao40"}, "oil_temperature_C": 60.0}
