@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.chain.documented import check_given
 from mixedlub.chain.part_law import GIVEN, Kind, PartLaw
 from mixedlub.efficiency.file import Bearing, Churning, Part, Stage
 from mixedlub.gear import GearPair
@@ -83,7 +82,7 @@ def _part(table: str, name: str, section: Part, where: str) -> StagePart:
     series = getattr(section, "series", None)
     if series is not None:
         given = {**series_coefficients(law, series, f"{where}.series"), **given}
-    check_given(law, given, f"{where}.coefficients", f"mixedlub parts {law.name}")
+    law.check_given(given, f"{where}.coefficients", f"mixedlub parts {law.name}")
     check_name(name, where)
     side = getattr(section, "shaft", getattr(section, "wheel", "pinion"))
     return StagePart(table, name, law, section, law.values(given), 0 if side == "pinion" else 1)
