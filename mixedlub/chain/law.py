@@ -11,7 +11,7 @@ from types import MappingProxyType
 from typing import Any, ClassVar, Generic, TypeVar
 
 from mixedlub.chain.documented import Coefficient, described, few
-from mixedlub.chain.plain_text import INDENT, entry
+from mixedlub.chain.plain_text import INDENT, entry, plain_equation
 from mixedlub.schema.discovery import loaded
 from profiles.errors import InputError, nearest
 
@@ -96,7 +96,7 @@ class Law:
 
     def facts(self) -> Mapping[str, str]:
         """Lines of the page by their headings; an empty text is left out."""
-        raise NotImplementedError
+        return {"equation": plain_equation(self.equation), "": self.remarks, "source": self.source}
 
     def numbers(self) -> list[str]:
         """Lines of the page on the numbers of the law, with their heading."""
