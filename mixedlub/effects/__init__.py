@@ -8,18 +8,14 @@ from dataclasses import dataclass
 from functools import cache
 from types import MappingProxyType
 
-from mixedlub.chain.effect import REGISTRY, STAGES, Effect
+from mixedlub.chain.effect import EFFECTS, Effect
 from mixedlub.chain.model import Chain, available
-from mixedlub.schema.discovery import loaded
 from profiles.errors import InputError, nearest
 
 
-@cache
 def catalogue() -> Mapping[str, Effect]:
     """All effects by id: those of this package and plug-ins of the entry point ``mixedlub.effects``."""
-    loaded(__name__, "mixedlub.effects")
-    order = sorted(REGISTRY.values(), key=lambda e: (STAGES.index(e.stage), e.id))
-    return MappingProxyType({e.id: e for e in order})
+    return EFFECTS.all
 
 
 @cache
@@ -35,11 +31,7 @@ def known_in(kind: str) -> Mapping[str, Effect]:
 
 def find(ids: str | list[str] | tuple[str, ...], where: str = "effect") -> tuple[Effect, ...]:
     """Effects by one id or several; an unknown id raises an error that names the nearest and the place ``where``."""
-    known, ids = catalogue(), (ids,) if isinstance(ids, str) else ids
-    for name in ids:
-        if not isinstance(name, str) or name not in known:
-            raise InputError(f"no such effect; {nearest(name, known)}", where=where, value=name)
-    return tuple(known[name] for name in ids)
+    return tuple(EFFECTS.find(name, where) for name in ((ids,) if isinstance(ids, str) else ids))
 
 
 def page(effect_id: str) -> Effect:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.chain.documented import check_given, few
+from mixedlub.chain.documented import few
 from mixedlub.chain.part_law import GIVEN, Kind, PartLaw
 from mixedlub.chain.ranges import UNBOUNDED, Limit, Reached, declared
 from mixedlub.efficiency.file import Bearing, Churning, Part, Stage
@@ -112,7 +112,7 @@ def _part(table: str, name: str, section: Part, where: str) -> StagePart:
         names = few(list(series()[law.series]))
         rule = f"needs {few(missing)}: give `series` ({names}), or these by `coefficients`, from the catalogue"
         raise InputError(rule, where=where)
-    check_given(law, given, f"{where}.coefficients", f"mixedlub parts {law.name}")
+    law.check_given(given, f"{where}.coefficients", f"mixedlub parts {law.name}")
     check_name(name, where)
     side = getattr(section, "shaft", getattr(section, "wheel", "pinion"))
     return StagePart(table, name, law, section, law.values(given), 0 if side == "pinion" else 1)

@@ -110,7 +110,7 @@ class AsperitySection(Section):
     m4_per_um2: Positive = key("variance of their curvatures", example=0.0021)
     # The laws are those of a table, which a type checker does not evaluate.
     law: Literal[LAWS] = key(  # type: ignore[valid-type]
-        "law of the asperities", LAWS[0], values={name: ASPERITY_LOAD.choices[name].meaning for name in LAWS}
+        "law of the asperities", LAWS[0], values={name: ASPERITY_LOAD.choices[name].title for name in LAWS}
     )
     hardness_GPa: Positive | None = key(
         "indentation hardness of the softer body, for asperities that yield", None, example=6.0, alternative=True

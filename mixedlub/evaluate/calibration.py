@@ -11,7 +11,6 @@ import pandas as pd
 from pydantic import Field, field_validator
 
 from mixedlub import friction
-from mixedlub.chain.documented import check_given
 from mixedlub.evaluate.evaluation import (
     BEYOND_VISCOSITY,
     Curve,
@@ -116,7 +115,7 @@ def _checked(file: CalibrationFile, table: Table) -> None:
     if FACTOR in file.coefficients:
         raise InputError("belongs in surface_factor_bounds", where=f"coefficients.{FACTOR}")
     ends = dict.fromkeys(file.bounds, 0.0)
-    check_given(LAW, {**file.coefficients, **ends}, "coefficients", f"mixedlub friction-laws {LAW.name}")
+    LAW.check_given({**file.coefficients, **ends}, "coefficients", f"mixedlub friction-laws {LAW.name}")
     check_surfaces(file.surfaces, file.surface_factor_bounds, "surface_factor_bounds")
     for name in ("pinion_surface", "gear_surface"):
         check_surfaces(file.surfaces, table[name], f"{table.source}: {name}")

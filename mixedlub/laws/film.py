@@ -22,6 +22,13 @@ class Regression(NamedTuple):
 
 DOWSON_TOYODA = Regression(3.06, 0.69, 0.56, -0.10)
 DOWSON_HIGGINSON = Regression(2.65, 0.70, 0.54, -0.13)
+RIVALS = {
+    "Dowson and Higginson": DOWSON_HIGGINSON,
+    "Pan and Hamrock": Regression(2.922, 0.692, 0.470, -0.166),
+    "Grubin": Regression(1.95, 8.0 / 11.0, 8.0 / 11.0, -1.0 / 11.0),
+}
+"""Published regressions of line contacts other than the base law: D. Dowson, Proc. IMechE 182 Pt 3A (1968) 151; P. Pan,
+B. J. Hamrock, J. Tribol. 111 (1989) 246, central film; A. N. Grubin (1949), central film."""
 POINT_EXPONENT = 0.67
 """Of speed in the regression of Hamrock and Dowson."""
 ELLIPTICITY = (1.0, 8.0)

@@ -14,6 +14,7 @@ import mixedlub as ml
 from mixedlub import effects
 from mixedlub.case import reference_rigs
 from mixedlub.case.forward import Forward
+from mixedlub.chain.effect import EFFECTS
 from mixedlub.chain.slots import SLOTS, STEPS
 from mixedlub.effects import catalogue
 from mixedlub.efficiency import EXAMPLE, read_gearbox
@@ -132,8 +133,8 @@ def test_the_stage_of_a_gearbox_holds_one_law(tmp_path: Path) -> None:
 @pytest.fixture
 def rival(monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
     """A second effect that replaces the film."""
-    both = MappingProxyType({**catalogue(), "film_of_moes": replace(catalogue()["film_law"], id="film_of_moes")})
-    monkeypatch.setattr(effects, "catalogue", lambda: both)
+    both = MappingProxyType({**catalogue(), "film_of_moes": replace(catalogue()["film_law"], name="film_of_moes")})
+    monkeypatch.setattr(EFFECTS, "all", both)
     effects.known_in.cache_clear()
     yield "film_of_moes"
     effects.known_in.cache_clear()
