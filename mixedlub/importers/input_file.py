@@ -43,7 +43,7 @@ class InputFile:
     def table(self, decimal: str | None = None) -> Sheet:
         """The table in the text; ``decimal`` is the mark before decimals where an answer names it."""
         if decimal not in self.tables:
-            self.tables[decimal] = read_sheet(self.text, self.name, decimal)
+            self.tables[decimal] = read_sheet(self.text, self.name, decimal, "\t" if self.is_workbook else "")
         return self.tables[decimal]
 
 

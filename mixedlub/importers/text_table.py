@@ -28,12 +28,12 @@ WORDS = re.compile(r"\S+(?:\s\S+)*")
 """A cell between blanks: a word, a word and its unit, or words with single blanks between."""
 
 
-def rows_of(numbered: Sequence[tuple[int, str]]) -> list[Line]:
+def rows_of(numbered: Sequence[tuple[int, str]], separator: str = "") -> list[Line]:
     """The cells of numbered lines, separated by blanks only where no separator gives as many rows of numbers."""
-    separator = max(SEPARATORS, key=lambda mark: _regularity([line.count(mark) for _, line in numbered]))
-    reader = csv.reader((line for _, line in numbered), delimiter=separator)
+    mark = separator or max(SEPARATORS, key=lambda mark: _regularity([line.count(mark) for _, line in numbered]))
+    reader = csv.reader((line for _, line in numbered), delimiter=mark)
     marked = [(numbered[reader.line_num - 1][0], [cell.strip() for cell in row]) for row in reader]
-    if not any(_tally(line.split())[0] for _, line in numbered if len(line.split(None, 1)) > 1):
+    if separator or not any(_tally(line.split())[0] for _, line in numbered if len(line.split(None, 1)) > 1):
         return marked
     blank = _by_blanks(numbered)
     return blank if _readable(blank) > _readable(marked) else marked
@@ -115,18 +115,18 @@ class Sheet:
     faults: Mapping[str, Mapping[int, str]] = field(default_factory=dict)
 
 
-def read_sheet(text: str, name: str, decimal: str | None = None) -> Sheet:
+def read_sheet(text: str, name: str, decimal: str | None = None, separator: str = "") -> Sheet:
     """The longest table of a text: rows of equal length under a header without numbers.
 
     Lines before and after the table are left out; a row of another length within it is an error. ``decimal`` is the
-    decimal mark, where an answer names it.
+    decimal mark, where an answer names it; ``separator`` parts the cells, where it is known.
     """
     numbered = [
         (number, line)
         for number, line in enumerate(text.splitlines(), start=1)
         if line.strip() and not line.lstrip().startswith("#")
     ]
-    rows = [line for line in rows_of(numbered) if any(line[1])]
+    rows = [line for line in rows_of(numbered, separator) if any(line[1])]
     if len(rows) < 2:
         raise InputError("needs a header line and at least one row", where=name)
     rows, notes = with_points(rows, name, decimal)
