@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from mixedlub.importers.base import HIDDEN_ROWS, SHEET, Answers, read_note
-from mixedlub.importers.text_table import Sheet, count, places, read_sheet
+from mixedlub.importers.odd_rows import count, places
+from mixedlub.importers.text_table import Sheet, read_sheet
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.table import with_hyphens
 from profiles.errors import InputError, nearest, refuse_no_file
