@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from mixedlub.importers.base import HIDDEN_ROWS, SHEET, Answers, read_note
-from mixedlub.importers.text_table import Sheet, count, places, read_sheet
+from mixedlub.importers.odd_rows import count, places
+from mixedlub.importers.text_table import Sheet, read_sheet
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.table import with_hyphens
 from profiles.errors import InputError, nearest, refuse_no_file
@@ -43,7 +44,7 @@ class InputFile:
     def table(self, decimal: str | None = None) -> Sheet:
         """The table in the text; ``decimal`` is the mark before decimals where an answer names it."""
         if decimal not in self.tables:
-            self.tables[decimal] = read_sheet(self.text, self.name, decimal)
+            self.tables[decimal] = read_sheet(self.text, self.name, decimal, "\t" if self.is_workbook else "")
         return self.tables[decimal]
 
 

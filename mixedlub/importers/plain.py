@@ -121,7 +121,7 @@ def draft(file: InputFile, answers: Answers) -> Draft:
         *(finding("column_not_taken", text, name) for text in matched.warned),
         *pooled,
         *ratio_notes,
-        *(read_note(text, name) for text in how_read),
+        *(read_note(text, name) for text in (*filter(None, [sheet.repeated]), *how_read)),
         *clock_notes,
         *(read_note(text, name) for text in not_positive),
         *([read_note(renumbered)] if renumbered else []),

@@ -15,6 +15,7 @@ import numpy as np
 from mixedlub.importers.base import Answers
 from mixedlub.importers.decimals import Line, common_length, is_written_number, with_points
 from mixedlub.importers.header import header_of
+from mixedlub.importers.odd_rows import cleared, count, places, without_repeated_headers, without_summaries
 from mixedlub.schema.table import LARGEST, are_numbers, is_missing, is_number
 from mixedlub.schema.units import words_of
 from profiles.errors import InputError, nearest
@@ -28,12 +29,12 @@ WORDS = re.compile(r"\S+(?:\s\S+)*")
 """A cell between blanks: a word, a word and its unit, or words with single blanks between."""
 
 
-def rows_of(numbered: Sequence[tuple[int, str]]) -> list[Line]:
+def rows_of(numbered: Sequence[tuple[int, str]], separator: str = "") -> list[Line]:
     """The cells of numbered lines, separated by blanks only where no separator gives as many rows of numbers."""
-    separator = max(SEPARATORS, key=lambda mark: _regularity([line.count(mark) for _, line in numbered]))
-    reader = csv.reader((line for _, line in numbered), delimiter=separator)
+    mark = separator or max(SEPARATORS, key=lambda mark: _regularity([line.count(mark) for _, line in numbered]))
+    reader = csv.reader((line for _, line in numbered), delimiter=mark)
     marked = [(numbered[reader.line_num - 1][0], [cell.strip() for cell in row]) for row in reader]
-    if not any(_tally(line.split())[0] for _, line in numbered if len(line.split(None, 1)) > 1):
+    if separator or not any(_tally(line.split())[0] for _, line in numbered if len(line.split(None, 1)) > 1):
         return marked
     blank = _by_blanks(numbered)
     return blank if _readable(blank) > _readable(marked) else marked
@@ -42,6 +43,23 @@ def rows_of(numbered: Sequence[tuple[int, str]]) -> list[Line]:
 def _regularity(counts: list[int]) -> int:
     """Number of lines with the most common count of a separator; on a tie the comma may be a decimal mark."""
     return max(Counter(n for n in counts if n).values(), default=0)
+
+
+def with_header(rows: Sequence[Line], lines: Mapping[int, str]) -> list[Line]:
+    """The rows with the words of the header separated by blanks where only the numbers below have separators.
+
+    >>> lines = {1: "Time Load", 2: "0\\t20", 3: "1\\t21"}
+    >>> with_header([(1, ["Time Load"]), (2, ["0", "20"]), (3, ["1", "21"])], lines)[0]
+    (1, ['Time', 'Load'])
+    """
+    width = common_length([row for _, row in rows])
+    first = next((i for i, (_, row) in enumerate(rows) if len(row) == width > 1 and _tally(row)[0]), 0)
+    number, above = rows[first - 1]
+    ways = [form.findall(lines[number]) for form in (WORD, WORD_AND_UNIT, WORDS)]
+    words = next((way for way in ways if len(way) == width), None)
+    if first == 0 or len(above) > 1 or words is None or any(map(is_number, words)):
+        return list(rows)
+    return [*rows[: first - 1], (number, [word.strip() for word in words]), *rows[first:]]
 
 
 def _by_blanks(numbered: Sequence[tuple[int, str]]) -> list[Line]:
@@ -78,8 +96,6 @@ ONLY = "import.only."
 VALUES_LISTED = 20
 """Values of a column that an error lists at most."""
 Cells = Mapping[str, Sequence[str]]
-LINES_SHOWN = 5
-"""Lines that a note lists at most."""
 NUMBERS_SHOWN = 3
 """Numbers in a header that an error lists at most."""
 
@@ -102,7 +118,7 @@ class TextColumn(list[str]):
 class Sheet:
     """The cells of a table by header, the line of each row, which lines are outside the table, and notes.
 
-    ``summaries`` says which rows of means or sums are left out. ``faults`` are cells that hold an error of a
+    ``repeated`` says which lines repeat the header, ``summaries`` which rows of means or sums are left out. ``faults`` are cells that hold an error of a
     spreadsheet or an infinite number, by header and line; they are empty in ``cells``.
     """
 
@@ -111,22 +127,24 @@ class Sheet:
     lines: tuple[int, ...]
     left_out: str = ""
     notes: tuple[str, ...] = ()
+    repeated: str = ""
     summaries: str = ""
     faults: Mapping[str, Mapping[int, str]] = field(default_factory=dict)
 
 
-def read_sheet(text: str, name: str, decimal: str | None = None) -> Sheet:
+def read_sheet(text: str, name: str, decimal: str | None = None, separator: str = "") -> Sheet:
     """The longest table of a text: rows of equal length under a header without numbers.
 
     Lines before and after the table are left out; a row of another length within it is an error. ``decimal`` is the
-    decimal mark, where an answer names it.
+    decimal mark, where an answer names it; ``separator`` parts the cells, where it is known.
     """
     numbered = [
         (number, line)
         for number, line in enumerate(text.splitlines(), start=1)
         if line.strip() and not line.lstrip().startswith("#")
     ]
-    rows = [line for line in rows_of(numbered) if any(line[1])]
+    every = with_header([line for line in rows_of(numbered, separator) if any(line[1])], dict(numbered))
+    rows, repeated = without_repeated_headers(every)
     if len(rows) < 2:
         raise InputError("needs a header line and at least one row", where=name)
     rows, notes = with_points(rows, name, decimal)
@@ -136,56 +154,9 @@ def read_sheet(text: str, name: str, decimal: str | None = None) -> Sheet:
     table, summaries = without_summaries(rows[first:last])
     lines = tuple(number for number, _ in table)
     cells = {h: TextColumn(row[i] for _, row in table) for i, h in enumerate(header) if h}
-    faults = {h: found for h, column in cells.items() if (found := _cleared(column, lines))}
+    faults = {h: found for h, column in cells.items() if (found := cleared(column, lines))}
     parts = [part for part in (_range(rows[:above]), _range(rows[last:])) if part]
-    return Sheet(name, cells, lines, " and ".join(parts), tuple(notes), summaries, faults)
-
-
-SUMMARY = re.compile(
-    r"(?:(?:arithmetic )?mean|averages?|avg|sum|total|median|std\.?|sd|s\.d\.|st\.? ?dev|std\.? ?dev|"
-    r"standard deviation|mittelwert|mittel|durchschnitt|summe|gesamt|stabw|standardabweichung)(?: ?values?)?\.?:?",
-    re.IGNORECASE,
-)
-"""Label of a row that summarises others."""
-
-
-def without_summaries(rows: Sequence[Line]) -> tuple[list[Line], str]:
-    """The rows without means and sums of others, by their labels, and words on these; a table of means keeps its rows.
-
-    >>> without_summaries([(2, ["1", "0.1"]), (3, ["2", "0.3"]), (4, ["Mean:", "0.2"])])
-    ([(2, ['1', '0.1']), (3, ['2', '0.3'])], "1 row left out, as it is labelled 'Mean:': line 4")
-    >>> without_summaries([(2, ["mean", "0.1"]), (3, ["sd", "0.3"])])[1]
-    ''
-    """
-    labels = {
-        number: next(label for label in map(SUMMARY.fullmatch, row) if label)[0]
-        for number, row in rows
-        if not all(map(is_number, row)) and any(map(SUMMARY.fullmatch, row))
-    }
-    if not labels or 2 * len(labels) > len(rows):
-        return list(rows), ""
-    named = ", ".join(map(repr, dict.fromkeys(labels.values())))
-    which = "as it is" if len(labels) == 1 else "as they are"
-    words = f"{count(len(labels), 'row')} left out, {which} labelled {named}: {places(list(labels))}"
-    return [line for line in rows if line[0] not in labels], words
-
-
-FAULT = re.compile(
-    r"#(?:DIV/0|VALUE|WERT|REF|BEZUG|NAME|NUM|ZAHL|NULL|SPILL|CALC|FORMULA)[!?]?|Err:\d+|"
-    r"[-+]?1\.#(?:INF|IND|QNAN)\d*|[-+]?inf(?:inity)?",
-    re.IGNORECASE,
-)
-"""Cell in which a program reports an error or an infinite number."""
-
-
-def _cleared(cells: TextColumn, lines: Sequence[int]) -> dict[int, str]:
-    """The cells without a number because of an error, by their line; they are emptied."""
-    if not {"#", "i", "I", "E"} & set("".join(set(cells))):
-        return {}
-    faults = {i: cell for i, cell in enumerate(cells) if FAULT.fullmatch(cell)}
-    for i in faults:
-        cells[i] = ""
-    return {lines[i]: cell for i, cell in faults.items()}
+    return Sheet(name, cells, lines, " and ".join(parts), tuple(notes), repeated, summaries, faults)
 
 
 def complete_rows(sheet: Sheet, needed: Sequence[str]) -> tuple[Sheet, list[str]]:
@@ -258,26 +229,15 @@ def selected_rows(sheet: Sheet, answers: Answers) -> tuple[Sheet, list[str]]:
 
 
 def _cell_equals(cell: str, value: Any) -> bool:
+    """Whether a cell is the value of an answer, or lies in its range.
+
+    >>> [_cell_equals(cell, "273..400") for cell in ("300", "680", "hot")], _cell_equals("20.0", 20)
+    ([True, False, False], True)
+    """
+    low, dots, high = str(value).partition("..")
+    if dots and all(not end or is_number(end) for end in (low, high)):
+        return is_number(cell) and float(low or "-inf") <= float(cell) <= float(high or "inf")
     return cell == str(value) or (is_number(cell) and is_number(str(value)) and float(cell) == float(value))
-
-
-def count(number: int, thing: str) -> str:
-    """A number of things in words.
-
-    >>> count(1, "row"), count(3, "row")
-    ('1 row', '3 rows')
-    """
-    return f"{number} {thing}" + ("" if number == 1 else "s")
-
-
-def places(lines: Sequence[int]) -> str:
-    """Numbers of lines in words.
-
-    >>> places([14]), places([3, 9]), places(list(range(2, 20)))
-    ('line 14', 'lines 3, 9', 'lines 2, 3, 4, 5, 6 and 13 more')
-    """
-    more = f" and {len(lines) - LINES_SHOWN} more" if len(lines) > LINES_SHOWN else ""
-    return ("line " if len(lines) == 1 else "lines ") + ", ".join(map(str, lines[:LINES_SHOWN])) + more
 
 
 def not_above_zero(quantity: str, values: Iterable[float], lines: Iterable[int]) -> list[str]:

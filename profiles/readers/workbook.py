@@ -121,19 +121,20 @@ class _Rows:
                 self.cells[row][column] = text.replace(".", "").replace(",", ".") if "," in text else text
         width = max(map(len, self.cells.values()), default=0)
         empty = [""] * width
-        text = io.StringIO()
-        writer = csv.writer(text, delimiter="\t", lineterminator="\n")
+        table = io.StringIO()
+        writer = csv.writer(table, delimiter="\t", lineterminator="\n")
         for number in range(1, max(self.cells, default=0) + 1):
             cells = self.cells.get(number, empty)
             writer.writerow(cells + empty[len(cells) :])
         as_text = _letters({column for _, column in self.texts})
         rows = len(self.numbered)
         return Worksheet(
-            self.name, text.getvalue(), rows, _letters(self.percent), as_text, self.is_hidden, tuple(self.hidden)
+            self.name, table.getvalue(), rows, _letters(self.percent), as_text, self.is_hidden, tuple(self.hidden)
         )
 
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
-        tag = tag.rpartition(":")[2]
+        if ":" in tag:
+            tag = tag.rpartition(":")[2]
         if tag == "c":
             self.cell, self.value, self.is_formula = attributes, [], False
             place = attributes.get("r")
@@ -155,7 +156,8 @@ class _Rows:
             self.value.append(text)
 
     def _end(self, tag: str) -> None:
-        tag = tag.rpartition(":")[2]
+        if ":" in tag:
+            tag = tag.rpartition(":")[2]
         if tag in ("v", "t"):
             self.is_value = False
         elif tag == "rPh":
