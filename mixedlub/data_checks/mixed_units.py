@@ -93,7 +93,7 @@ def conditions_of_another_unit(case: Case, rows: Table, y: np.ndarray, base: np.
                 found.append((off + spread, name, unit, np.exp(off + spread) - 1.0))
     if not found:
         return []
-    _, name, unit, left = min(found)
+    _, name, unit, left = min(found, key=lambda one: one[0])
     text = (
         f"readings are about {np.exp(np.median(before)):.2g} times what the base model gives; most would agree with it "
         f"within {100.0 * left:.0f} % if {name} were in {unit}: is it in that unit?"
