@@ -13,6 +13,7 @@ import numpy as np
 from mixedlub.case.folder import Case
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Chain, Model, Parameters, Record, available
+from mixedlub.chain.ranges import beyond
 from mixedlub.effects import known_effects, known_in
 from mixedlub.kinds.calibration import Calibration, calibrations, of_base_law, of_parameter
 from mixedlub.kinds.kind import ageing, varies
@@ -182,4 +183,10 @@ class Forward:
             if e.id not in (*exclude, *self.known.values)
             and available(e, self.chain, tuple(self.inputs), "reading", self.case.kind.name)
             and (not e.needs_variation_in or varies(self.inputs[e.needs_variation_in]))
+            and self._within(e)
         )
+
+    def _within(self, e: Effect) -> bool:
+        """Whether most rows are within the range in which an effect is offered."""
+        values = {name: self.base_quantity(name) for name in e.offered_within}
+        return bool(np.mean(~beyond(values, e.offered_within)) > 0.5)

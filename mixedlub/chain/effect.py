@@ -82,8 +82,9 @@ class Effect(Law):
     ``special_cases`` are laws, published or limits, that the effect becomes at certain values of some parameters. A
     ``descriptive`` effect follows readings without naming a cause. An ``exact_form`` is the effect's definition, so no
     error of form is considered. ``needs_variation_in`` is a quantity at whose single value the effect would only
-    rescale the base model; it is not offered there. A law that adds no physics ``replaces`` a step of the base model.
-    ``valid`` is the range of all its laws, ``also_valid`` gives that of some by the values of the parameters.
+    rescale the base model; it is not offered there. ``offered_within`` are ranges of base quantities in which most rows
+    of a recording must be for it to be offered. A law that adds no physics ``replaces`` a step of the base model.
+    ``valid`` is the range of all its laws, ``also_valid`` gives the range of some by the values of the parameters.
     """
 
     stage: str
@@ -98,6 +99,7 @@ class Effect(Law):
     descriptive: bool = False
     exact_form: bool = False
     needs_variation_in: str = ""
+    offered_within: Ranges = field(default_factory=dict)
     replaces: str = ""
     fixed: Mapping[str, float] = field(default_factory=dict)
     also_valid: Callable[[Mapping[str, float]], Ranges] | None = None
@@ -156,14 +158,14 @@ class Effect(Law):
     def facts(self) -> Mapping[str, str]:
         """Lines of the page by their headings."""
         acted = (", ".join(filter(None, (_letter(n), _unit(GLOSSARY[n].unit).strip()))) for n in self.acts_on)
-        ranges = (f"{n} {low:g} to {high:g}{_unit(GLOSSARY[n].unit)}" for n, (low, high) in self.valid.items())
         return {
             "stage": self.stage,
             "changes": ", ".join(map(with_symbol, self.acts_on, acted)),
             "reads": ", ".join(with_symbol(name, _letter(name)) for name in self.reads) or "nothing else",
             "equation": plain_equation(self.equation),
             "source": self.source,
-            "valid": "; ".join(ranges),
+            "valid": _ranges(self.valid),
+            "offered": _ranges(self.offered_within) and f"where most rows have {_ranges(self.offered_within)}",
             "recordings": ", ".join(self.kinds),
             "prior odds": f"{self.prior_odds:g} times those of most effects" if self.prior_odds < 1.0 else "",
             "form": "exact by definition: no error of form is considered" if self.exact_form else "",
@@ -187,6 +189,10 @@ class Effect(Law):
 
 def _unit(unit: str) -> str:
     return {"-": "", "*": " unit of the channel"}.get(unit, f" {unit}")
+
+
+def _ranges(ranges: Ranges) -> str:
+    return "; ".join(f"{n} {low:g} to {high:g}{_unit(GLOSSARY[n].unit)}" for n, (low, high) in ranges.items())
 
 
 def _letter(quantity: str) -> str:

@@ -32,7 +32,7 @@ transverse_radius       | R_y        | m       | reduced radius across the direc
 entrainment_speed       | u          | m/s     | mean of the two surface speeds
 sliding_speed           | v_s        | m/s     | difference of the two surface speeds, without sign
 moes_load               | M          | -       | Moes' load parameter of a line contact
-isoviscous_ratio        | q_EI       | -       | isoviscous elastic over piezoviscous elastic film
+isoviscous_ratio        | q_EI       | -       | asymptote of the isoviscous elastic film over the piezoviscous one
 slide_roll_ratio        | S          | -       | sliding speed over entrainment speed
 roll_angle              | theta      | rad     | pinion roll angle of the contact point
 path_fraction           | xi         | -       | place along the path of contact, 0 at its start and 1 at its end

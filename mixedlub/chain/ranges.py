@@ -191,7 +191,8 @@ def findings(
 ) -> tuple[Finding, ...]:
     """A finding on each code, the gravest first: how many ``rows`` it holds for, their grades, values and limits.
 
-    ``place`` is where all or each of the codes belong, ``more`` adds to the advice of some.
+    A law that is far outside its range in every row puts all numbers in doubt. ``place`` is where all or each of the
+    codes belong, ``more`` adds to the advice of some.
     """
     said = []
     for code, grades in flags(reached, shape).items():
@@ -201,7 +202,9 @@ def findings(
         reach = "; ".join(limit.reach(np.where(g, v, np.nan)) for limit, v in own if (g := limit.grades(v) > 0).any())
         text = f"of {grades.size} {rows} {_counted(grades)}: {advice} ({reach})"
         at = place if isinstance(place, str) else place(code)
-        said.append(finding(code.partition(":")[0], text, at, _SEVERITIES[worst]))
+        whole = code.startswith(EXTRAPOLATED) and bool((grades > 1).all())
+        severity = Severity.DOUBT if whole else _SEVERITIES[worst]
+        said.append(finding(code.partition(":")[0], text, at, severity))
     return tuple(said)
 
 

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 from mixedlub.case.folder import Case
-from mixedlub.schema.findings import Finding, finding
+from mixedlub.case.forward import Forward
+from mixedlub.schema.findings import Finding, collected, finding
 from mixedlub.schema.ranges import atypical
 from mixedlub.schema.table import Table
+from mixedlub.schema.units import UNITS, read_as
+from profiles.errors import InputError
 
 SLIPS: Mapping[float, str] = {
     1e2: "a hundred times",
@@ -22,6 +26,9 @@ SLIPS: Mapping[float, str] = {
 }
 UNIT_TOLERANCE = 2.0
 """Judgement. Factor by which a wrong unit may differ from its power of ten: the accuracy of the base model."""
+COMMON_FACTOR, AGREED = 3.0, 1.25
+"""Judgement. Factor off the base model from which a condition is tried in other units, and the one left by the right
+unit: missing physics seldom multiplies all readings by one factor of that size."""
 LEAST_PART = 0.1
 """Judgement. Least share of the readings that counts as a second unit rather than as outliers."""
 TEN = 10.0
@@ -68,6 +75,46 @@ def of_another_unit(case: Case, y: np.ndarray, base: np.ndarray, fewest: int) ->
         text = "most readings have the opposite sign to the base model: check the sign"
         findings.append(finding("sign_opposite_to_model", text))
     return findings
+
+
+def conditions_of_another_unit(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewest: int) -> list[Finding]:
+    """A condition that brings readings a common factor off the base model to it, read in another unit."""
+    before = _log_ratio(y, base)
+    if before.size < fewest or abs(np.median(before)) < np.log(COMMON_FACTOR):
+        return []
+    found = []
+    for name in _sizes(case, rows):
+        for unit, (factor, added) in UNITS.get(read_as(name), {}).items():
+            table = Table({**rows.columns, name: rows[name] * factor}, rows.source)
+            if added or factor == 1.0 or (after := _in_unit(replace(case, recordings=table), table, y)) is None:
+                continue
+            off, spread = abs(float(np.median(after))), float(np.median(np.abs(after - np.median(after))))
+            if max(off, spread) < np.log(AGREED):
+                found.append((off + spread, name, unit, np.exp(off + spread) - 1.0))
+    if not found:
+        return []
+    _, name, unit, left = min(found, key=lambda one: one[0])
+    text = (
+        f"readings are about {np.exp(np.median(before)):.2g} times what the base model gives; most would agree with it "
+        f"within {100.0 * left:.0f} % if {name} were in {unit}: is it in that unit?"
+    )
+    return [finding("condition_in_other_unit", text, name)]
+
+
+def _in_unit(case: Case, table: Table, y: np.ndarray) -> np.ndarray | None:
+    """Logarithms of the readings over the base model of a changed table; None where the model has no answer."""
+    try:
+        with collected(), np.errstate(all="ignore"):
+            found = _log_ratio(y, Forward(case, table).base_prediction())
+    except InputError:
+        return None
+    return found if found.size else None
+
+
+def _log_ratio(y: np.ndarray, base: np.ndarray) -> np.ndarray:
+    """Logarithm of readings over the base model where both are of one sign."""
+    used = y * base > 0.0
+    return np.asarray(np.log(y[used] / base[used]))
 
 
 def of_two_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewest: int) -> list[Finding]:
@@ -117,6 +164,7 @@ def of_odd_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewes
         *atypical_sizes(rows, y, case.quantity),
         *too_thick(rows, y, case.quantity),
         *of_another_unit(case, y, base, fewest),
+        *conditions_of_another_unit(case, rows, y, base, fewest),
         *(conditions_of_two_units(case, rows, y, base) or of_two_units(case, rows, y, base, scarce)),
     ]
 

@@ -157,6 +157,20 @@ def test_torque_in_newton_millimetres_presses_the_flanks_too_hard() -> None:
     assert "pressure_above_yield" not in codes(gears(EXAMPLE, "torque_Nm", lambda t: 2.0 * t))
 
 
+@pytest.mark.parametrize(
+    ("column", "factor", "unit"),
+    [("speed_rpm", 30.0 / np.pi, "rad/s"), ("speed_rpm", 60.0, "rev/s")],
+)
+def test_a_condition_that_puts_all_readings_a_common_factor_off_is_asked_about(
+    column: str, factor: float, unit: str
+) -> None:
+    found = gears(EXAMPLE, column, lambda values: values / factor)
+    (note,) = [one for one in found if one.code == "condition_in_other_unit"]
+    assert note.place == column
+    assert f"in {unit}:" in note.text
+    assert "condition_in_other_unit" not in codes(gears(EXAMPLE, column, lambda values: values * 1.5))
+
+
 def test_temperatures_in_fahrenheit_are_far_from_those_of_the_oil() -> None:
     (note,) = gears(EXAMPLE, "oil_temperature_C", lambda t: 1.8 * t + 32.0)
     assert note.code == "temperature_in_fahrenheit"
