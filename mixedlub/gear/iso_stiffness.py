@@ -41,8 +41,8 @@ def iso_stiffness(
     E = 2 E_1 E_2/(E_1 + E_2). Below 100 N/mm: c' times (line load/100 N/mm)^(1/4).
 
     ``line_load``: K_A F_t/b in N/m, None for a full load; ``dedendum`` h_fP of the basic rack over module, None for
-    the pair's; ``blank_factor`` C_R of thin rims, 1 of solid discs. Holds for x_1 >= x_2, -0.5 <= x_1 + x_2 <= 2 and contact
-    ratios from 1.2; else a finding says so.
+    the pair's; ``blank_factor`` C_R of thin rims, 1 of solid discs. Holds for x_1 >= x_2, -0.5 <= x_1 + x_2 <= 2 and
+    contact ratios from 1.2; else a finding says so.
 
     Source: ISO 6336-1:2006, clause 9, method B.
 
