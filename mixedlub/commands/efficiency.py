@@ -91,7 +91,7 @@ def _print(made: dict[str, pd.DataFrame], at: Losses) -> None:
             f"losses of the stage {row['stage_efficiency_percent']:.3f} %"
         )
     share = made["breakdown"].iloc[:-1].groupby("origin", sort=False)["loss_W"].sum()
-    parts = ", ".join(f"{origin} {value:.4g}" for origin, value in share.items())
+    parts = ", ".join(f"{origin} {value:.4g}" for origin, value in share.items() if value)
     echo(f"  gearbox: efficiency {100.0 * at.efficiency()[0]:.3f} %, loss {at.total()[0]:.4g} W ({parts})")
     if "duty_summary" in made:
         row = made["duty_summary"].to_dict("records")[0]

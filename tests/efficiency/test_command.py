@@ -40,6 +40,17 @@ def test_columns_have_their_unit(out: Path) -> None:
             assert name in bare or name.endswith(("_Nm", "_rpm", "_W", "_percent", "_deg", "_kWh", "_h", "_N")), name
 
 
+def test_a_mesh_that_does_not_resist_rolling_is_not_shown_with_a_loss_of_zero(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for effects, shown in (({}, False), (STAGE["effects"], True)):
+        path = written(tmp_path, gearbox_file(STAGE | PARTS | {"effects": effects}))
+        assert main(["efficiency", str(path), "--out", str(tmp_path / f"out_{shown}")]) == 0
+        assert ("rolling" in capsys.readouterr().out) == shown
+        for name in ("breakdown", "mesh_cycle"):
+            assert ("rolling" in (tmp_path / f"out_{shown}" / "figures" / f"{name}.svg").read_text()) == shown
+
+
 def test_losses_written_add_up(out: Path) -> None:
     parts, table = pd.read_csv(out / "losses.csv"), pd.read_csv(out / "map.csv")
     summed = parts.drop(columns=["torque_Nm", "speed_rpm", "total_loss_W"]).sum(axis=1)
@@ -131,7 +142,11 @@ FRONT = "stages.a.bearings.front"
             f"{FRONT}.law: 'skf_deepgroove': no such bearing law; nearest known: 'skf_d",
         ),
         (f"{FRONT}.static_rating_N", None, f"{FRONT}: skf_deep_groove needs static_rating_N"),
-        (f"{FRONT}.series", None, "needs rolling, rolling_axial, sliding, sliding_axial"),
+        (
+            f"{FRONT}.series",
+            None,
+            "needs rolling, rolling_axial, sliding, sliding_axial: give `series` (2, 3, 42, 43 and 16 more)",
+        ),
         (f"{FRONT}.coefficients", {"rollin": 1e-7}, "'rollin': no such coefficient of skf_deep_groove; nearest known"),
         (f"{FRONT}.outside_diameter_mm", 20, "outside_diameter_mm 20 must be above bore_mm 35"),
         ("stages.a.bearings.back.static_rating_N", 1e4, "palmgren does not read it; leave it out"),

@@ -47,7 +47,7 @@ class MeshTable(Section):
 
 class Iso6336(Section):
     dedendum: Number | None = key(
-        "dedendum of the basic rack over module, as gears.dedendum",
+        "dedendum of the basic rack, as gears.dedendum",
         None,
         example=1.25,
         alternative=True,
