@@ -23,7 +23,9 @@ _STEP_NAMES = ("spacing", "step", "dx", "increment", "sampling interval", "point
 _UNIT_NAMES = ("unit", "units", "z unit", "height unit")
 _POSITION_UNIT_NAMES = ("x unit", "position unit", *_UNIT_NAMES)
 _COUNT_NAMES = ("points", "number of points", "count", "samples", "data points")
-_RESULT = re.compile(r'\W*([PRW][A-Za-z]\w{0,4})\W*?(?:[\[(]\s*([^\])]*?)\s*[\])])?[\s,;:="]+([-+]?\d[\d.,]*)["\s,;]*(\S*)\s*\Z')
+_RESULT = re.compile(
+    r'\W*([PRW][A-Za-z]\w{0,4})\W*?(?:[\[(]\s*([^\])]*?)\s*[\])])?[\s,;:="]+([-+]?\d[\d.,]*)["\s,;]*(\S*)\s*\Z'
+)
 _HEIGHTS_STATED = "aqztpv"
 """Second letters of the parameters that are heights: without a unit they have the unit of the heights."""
 
