@@ -10,12 +10,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, TypeVar
 
-from mixedlub.chain.law import Catalogue, Law
+from mixedlub.chain.law import Catalogue, Function, Law
 from mixedlub.chain.quantities import GLOSSARY
-
-Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,12 +36,7 @@ class Slot:
         self, name: str, meaning: str, valid: Mapping[str, tuple[float, float]] | None = None
     ) -> Callable[[Function], Function]:
         """Offer the law below under a name, with what the choice means and where the law is known to hold."""
-
-        def register(law: Function) -> Function:
-            self.laws.add(Law(name=name, law=law, title=meaning, valid=valid or {}))
-            return law
-
-        return register
+        return self.laws.declares(lambda law: Law(name=name, law=law, title=meaning, valid=valid or {}))
 
     @property
     def choices(self) -> Mapping[str, Law]:
