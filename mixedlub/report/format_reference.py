@@ -13,7 +13,7 @@ from typing import Any, Literal, get_args, get_origin
 import numpy as np
 
 from mixedlub.chain.documented import described
-from mixedlub.chain.plain_text import entry
+from mixedlub.chain.effect import entry
 from mixedlub.efficiency.file import EfficiencyFile
 from mixedlub.ehl.file import EhlFile
 from mixedlub.evaluate import EVALUATIONS
