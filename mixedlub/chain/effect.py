@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from mixedlub.chain.law import Catalogue, Law, Ranges
+from mixedlub.chain.law import Catalogue, Function, Law, Ranges
 from mixedlub.chain.plain_text import INDENT, entry, plain_equation, plain_symbol, with_symbol
 from mixedlub.chain.priors import Prior
 from mixedlub.chain.quantities import GLOSSARY
@@ -205,7 +205,7 @@ EFFECTS: Catalogue[Effect] = Catalogue(
 )
 
 
-def effect(*, acts_on: str | tuple[str, ...], **known: Any) -> Callable[[Callable[..., object]], Callable[..., object]]:
+def effect(*, acts_on: str | tuple[str, ...], **known: Any) -> Callable[[Function], Function]:
     """Register a law as an effect; its signature must say what the declaration says.
 
     The first arguments are the quantities acted on, then the quantities read, then keyword-only parameters. ``known``
@@ -215,17 +215,11 @@ def effect(*, acts_on: str | tuple[str, ...], **known: Any) -> Callable[[Callabl
     given = {name: value for name, value in known.items() if value is not None}
     frozen: dict[str, Any] = {n: MappingProxyType(dict(v)) if isinstance(v, Mapping) else v for n, v in given.items()}
 
-    def register(law: Callable[..., object]) -> Callable[..., object]:
-        found = Effect(name=law.__name__, law=law, acts_on=targets, **frozen)
-        _check(found)
-        EFFECTS.add(found)
-        return law
-
-    return register
+    return EFFECTS.declares(lambda law: _checked(Effect(name=law.__name__, law=law, acts_on=targets, **frozen)))
 
 
-def _check(found: Effect) -> None:
-    """Raise an error if declaration and signature disagree in what only effects have."""
+def _checked(found: Effect) -> Effect:
+    """The effect; raise an error if declaration and signature disagree in what only effects have."""
     where, begin = f"effect {found.name!r}", found.arguments[: len(found.acts_on)]
     if found.stage not in STAGES:
         raise TypeError(f"{where}: stage {found.stage!r} is none of {STAGES}")
@@ -238,3 +232,4 @@ def _check(found: Effect) -> None:
     for case, values in found.special_cases.items():
         if not values.keys() <= set(found.parameter_names):
             raise TypeError(f"{where}: special case {case!r} fixes {sorted(values)}, not all of them parameters")
+    return found

@@ -10,7 +10,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from mixedlub.chain.documented import Coefficient as Coefficient
-from mixedlub.chain.law import Catalogue, Law
+from mixedlub.chain.law import Catalogue, Function, Law
 from mixedlub.chain.plain_text import plain_equation
 from mixedlub.chain.quantities import GLOSSARY, unit_and_factor
 from mixedlub.chain.ranges import beyond
@@ -135,7 +135,6 @@ BASE = "tallian_mixture"
 FRICTION_LAWS: Catalogue[FrictionLaw] = Catalogue(
     "mixedlub.friction", "friction law", GLOSSARY, lambda law: (law.name != BASE, list(PLACES).index(law.place))
 )
-Function = Callable[..., Any]
 
 
 def friction_law(title: str, place: Place, **known: Any) -> Callable[[Function], Function]:
@@ -144,9 +143,6 @@ def friction_law(title: str, place: Place, **known: Any) -> Callable[[Function],
     Its arguments are quantities of the glossary, its keyword-only arguments the coefficients; its docstring has the
     equation and names the source. ``known`` are fields of `FrictionLaw`.
     """
-
-    def register(law: Function) -> Function:
-        FRICTION_LAWS.add(FrictionLaw(name=law.__name__, law=law, title=title, place=place, **known))
-        return law
-
-    return register
+    return FRICTION_LAWS.declares(
+        lambda law: FrictionLaw(name=law.__name__, law=law, title=title, place=place, **known)
+    )

@@ -114,6 +114,7 @@ class Law:
 
 
 Found = TypeVar("Found", bound=Law)
+Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 class Catalogue(Generic[Found]):
@@ -149,6 +150,15 @@ class Catalogue(Generic[Found]):
             raise TypeError(f"{where}: the docstring of its law names no 'Source: '")
         self._registered[law.name] = law
         self.__dict__.pop("all", None)
+
+    def declares(self, make: Callable[[Any], Found]) -> Callable[[Function], Function]:
+        """The decorator that registers what ``make`` makes of the function below."""
+
+        def register(law: Function) -> Function:
+            self.add(make(law))
+            return law
+
+        return register
 
     @cached_property
     def all(self) -> Mapping[str, Found]:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from mixedlub.chain.law import Catalogue, Law
+from mixedlub.chain.law import Catalogue, Function, Law
 from mixedlub.chain.plain_text import plain_equation
 
 Kind = Literal["bearing", "seal", "windage", "churning", "pocketing", "jet", "other"]
@@ -81,15 +81,10 @@ PART_LAWS: dict[Kind, Catalogue[PartLaw]] = {
 """Laws of parts by kind."""
 
 
-def part_law(kind: Kind, name: str, title: str, **known: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+def part_law(kind: Kind, name: str, title: str, **known: Any) -> Callable[[Function], Function]:
     """Register the function below as a law of a kind of parts.
 
     Its arguments are quantities of `COMPUTED` and `GIVEN`, its keyword-only arguments the coefficients; its docstring
     has the equation and names the source. ``known`` are fields of `PartLaw`.
     """
-
-    def register(law: Callable[..., Any]) -> Callable[..., Any]:
-        PART_LAWS[kind].add(PartLaw(name=name, kind=kind, law=law, title=title, **known))
-        return law
-
-    return register
+    return PART_LAWS[kind].declares(lambda law: PartLaw(name=name, kind=kind, law=law, title=title, **known))

@@ -10,13 +10,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, TypeVar
 
-from mixedlub.chain.law import Catalogue, Law
+from mixedlub.chain.law import Catalogue, Function, Law
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.chain.ranges import holds_within
-
-Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,12 +37,8 @@ class Slot:
         self, name: str, meaning: str, valid: Mapping[str, tuple[float, float]] | None = None
     ) -> Callable[[Function], Function]:
         """Offer the law below under a name, with what the choice means and where the law is known to hold."""
-
-        def register(law: Function) -> Function:
-            self.laws.add(Law(name=name, law=law, title=meaning, valid=valid or {}))
-            return holds_within(valid or {})(law)
-
-        return register
+        declares = self.laws.declares(lambda law: Law(name=name, law=law, title=meaning, valid=valid or {}))
+        return lambda law: holds_within(valid or {})(declares(law))
 
     @property
     def choices(self) -> Mapping[str, Law]:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
-import numpy as np
-
-from mixedlub.chain.law import Catalogue, Law
+from mixedlub.chain.law import Catalogue, Function, Law
+from mixedlub.ehl.oil.oil import constant
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.schema.section import Number, key
 
@@ -18,7 +18,6 @@ NEWTON_SCALE = 1e9
 QUANTITIES = ("pressure", "temperature", "stress", "density", "volume")
 """Arguments of laws: the state, the density at ambient pressure, and the law of the relative volume."""
 Pair = tuple[Number, Number]
-Function = Callable[..., Any]
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,15 +62,25 @@ class OilLaw(Law):
     """A law of viscosity, shear or density with the keys of its numbers.
 
     ``refuse`` raises an error for keys that contradict each other. A law of density may give the ``volume``. A law of
-    shear has the ``scale`` of stress at which it leaves Newton, none for a Newtonian oil, and the ``limit`` that no
-    stress reaches; all take the same numbers.
+    shear has the ``scale`` of stress at which it leaves Newton, a number of the law or a law over pressure, none for a
+    Newtonian oil, and the ``limit`` that no stress reaches. All take the numbers of the law.
     """
 
     keys: tuple[Given, ...] = ()
     refuse: Callable[[Any], None] | None = None
-    volume: Function | None = None
-    scale: Function | None = None
-    limit: Function | None = None
+    volume: Callable[..., Any] | None = None
+    scale: str | Callable[..., Any] = ""
+    limit: Callable[..., Any] | None = None
+
+    @property
+    def newtonian(self) -> bool:
+        """Whether no stress leaves Newton's law."""
+        return not self.scale
+
+    def stress_scale(self, numbers: dict[str, Any]) -> Callable[..., Any]:
+        """The law of the scale of stress (Pa) over pressure."""
+        own = self.scale
+        return partial(own, **numbers) if callable(own) else constant(numbers.get(own, NEWTON_SCALE))
 
     @property
     def parameter_names(self) -> tuple[str, ...]:
@@ -101,12 +110,7 @@ class OilLaws(Catalogue[OilLaw]):
 
     def offers(self, title: str, *keys: Given, **known: Any) -> Callable[[Function], Function]:
         """Offer the law below under its own name, with a title for the file's reference and the keys of its numbers."""
-
-        def register(law: Function) -> Function:
-            self.add(OilLaw(name=law.__name__, law=law, title=title, keys=keys, **known))
-            return law
-
-        return register
+        return self.declares(lambda law: OilLaw(name=law.__name__, law=law, title=title, keys=keys, **known))
 
     @property
     def keys(self) -> list[Given]:
@@ -124,13 +128,3 @@ class OilLaws(Catalogue[OilLaw]):
 
 
 VISCOSITY, SHEAR, DENSITY = OilLaws("viscosity law"), OilLaws("shear law"), OilLaws("density law")
-
-
-def never(pressure: np.ndarray, **numbers: float) -> np.ndarray:
-    """A stress that is never reached (Pa)."""
-    return np.full_like(pressure, np.inf)
-
-
-def beyond_contacts(pressure: np.ndarray, **numbers: float) -> np.ndarray:
-    """The scale of stress of a Newtonian oil (Pa)."""
-    return np.full_like(pressure, NEWTON_SCALE)

@@ -7,6 +7,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, ClassVar, Literal
 
+import numpy as np
 from pydantic import create_model, model_validator
 
 from mixedlub.ehl.oil.declared import (
@@ -17,12 +18,10 @@ from mixedlub.ehl.oil.declared import (
     OilLaw,
     OilLaws,
     Pair,
-    beyond_contacts,
     kelvin,
-    never,
 )
 from mixedlub.ehl.oil.lubricant import from_lubricant
-from mixedlub.ehl.oil.oil import Oil, expansion_of
+from mixedlub.ehl.oil.oil import Oil, constant, expansion_of
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.build import lubricant
 from mixedlub.schema.findings import collected, warn_of
@@ -176,9 +175,9 @@ def build(file: OilFile) -> Oil:
         log_viscosity=partial(viscosity.law, **viscosity.si(file.viscosity), **read),
         density_ratio=squeezed,
         shear=partial(shear.law, **stress),
-        stress_scale=partial(shear.scale or beyond_contacts, **stress),
-        stress_limit=partial(shear.limit or never, **stress),
-        newtonian=shear.scale is None,
+        stress_scale=shear.stress_scale(stress),
+        stress_limit=constant(np.inf) if shear.limit is None else partial(shear.limit, **stress),
+        newtonian=shear.newtonian,
         density=file.density.density_kg_m3,
         expansion=expansion_of(squeezed),
         conductivity=file.thermal.thermal_conductivity_W_mK,

@@ -43,11 +43,7 @@ OWN = Given(
 )
 
 
-def _same(pressure: np.ndarray, *, eyring_stress: float) -> np.ndarray:
-    return np.full_like(pressure, eyring_stress)
-
-
-@SHEAR.offers("sinh of stress over the Eyring stress", OWN, scale=_same)
+@SHEAR.offers("sinh of stress over the Eyring stress", OWN, scale="eyring_stress")
 def ree_eyring(stress: np.ndarray, pressure: np.ndarray, *, eyring_stress: float) -> Slopes:
     r"""One-term Ree-Eyring oil.
 
@@ -126,10 +122,6 @@ def _sinh(stress: np.ndarray, own: np.ndarray) -> Slopes:
     return own * sinh, cosh, sinh - ratio * cosh
 
 
-def _modulus(pressure: np.ndarray, *, shear_modulus: float, power: float) -> np.ndarray:
-    return np.full_like(pressure, shear_modulus)
-
-
 @SHEAR.offers(
     "power law above a shear modulus",
     Given(
@@ -140,7 +132,7 @@ def _modulus(pressure: np.ndarray, *, shear_modulus: float, power: float) -> np.
         limits={"gt": 0.0},
     ),
     Given("power", "power", "its exponent", limits={"gt": 0.0, "le": 1.0}),
-    scale=_modulus,
+    scale="shear_modulus",
 )
 def carreau(stress: np.ndarray, pressure: np.ndarray, *, shear_modulus: float, power: float) -> Slopes:
     r"""Carreau oil in Bair's stress form.
