@@ -82,7 +82,8 @@ def under_pressure(
     kelvin, pressure = np.linspace(*temperatures, 45), np.linspace(0.0, largest_pressure, 21)[1:]
     with np.errstate(all="ignore"):
         values = log(pressure[:, None], kelvin)
-        usual = float(log(np.array(min(REFERENCE_PRESSURE, largest_pressure)), np.array(kelvin[0])))
+        reference = min(REFERENCE_PRESSURE, largest_pressure), float(np.clip(IN_USE[0], *temperatures))
+        usual = float(log(*map(np.array, reference)))
     rising = np.argwhere(np.diff(values, axis=1) > 0.0)
     if len(rising):
         (at, first), last = rising[0], rising[:, 1].max()
@@ -94,7 +95,7 @@ def under_pressure(
         yield finding("oil_thickens", text, place)
     if usual > np.log(THICKEST):
         text = (
-            f"{name} has {np.exp(usual):.2g} Pa s at {min(REFERENCE_PRESSURE, largest_pressure) * 1e-9:g} GPa and "
-            f"{kelvin[0] - ZERO_CELSIUS:g} °C by {law}, where lubricating oils have no more than about 1e5"
+            f"{name} has {np.exp(usual):.2g} Pa s at {reference[0] * 1e-9:g} GPa and "
+            f"{reference[1] - ZERO_CELSIUS:g} °C by {law}, where lubricating oils have no more than about 1e5"
         )
         yield finding("oil_viscosity_implausible", text, place)
