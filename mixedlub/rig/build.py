@@ -34,6 +34,8 @@ LONG_CUTOFF, SHORT_CUTOFF = 0.8e-3, 2.5e-6
 """Cut-offs (m) of a map that states none; the middle row of ISO 3274."""
 
 
+LEAST_SPAN = 30.0
+"""Judgement. Difference of two temperatures (K) below which rounding to 0.1 1/GPa would change the fall between."""
 DEFAULT_BASE = "mineral"
 """Base stock of an oil that names none: most gear oils are mineral."""
 
@@ -52,7 +54,8 @@ def typical(section: system_file.Lubricant) -> dict[str, Any]:
     if section.known_pressure_viscosity is not None:
         return base
     alpha = gold_pressure_viscosity(np.array(at) * 1e-6, *gold) * 1e9
-    return {**base, "pressure_viscosity_per_GPa": alpha.round(1).tolist()}
+    near = abs(np.subtract(*(section.temperature_C or base["temperature_C"]))) < LEAST_SPAN
+    return {**base, "pressure_viscosity_per_GPa": alpha.round(4 if near else 1).tolist()}
 
 
 def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (), folder: Path = Path()) -> Lubricant:

@@ -19,9 +19,9 @@ FAHRENHEIT = ((100.0, 104.0), (210.0, 212.0))
 KINEMATIC = (0.21e-6, 0.1)
 """Judgement. Kinematic viscosities (m^2/s): ASTM D341 ends at 0.21 mm^2/s; the thickest lubricants, polybutenes, have
 some 1e4 mm^2/s at 40 °C, and ten times more is another substance or unit."""
-REFERENCE_PRESSURE, THICKEST = 1e9, 1e6
-"""Judgement. Viscosity (Pa s) at 1 GPa and 40 °C: lubricating oils have up to some 1e5, and ten times more is not
-reached, as an oil has become a solid before."""
+REFERENCE_PRESSURE, MOST_RISE = 1e9, 1e8
+"""Judgement. Rise of the viscosity to 1 GPa at 40 °C: 1e3 to 1e7 in lubricating oils, up to 9e7 by Roelands and Gold in
+mineral oils to ISO VG 3200; an oil that would rise more has become a solid before."""
 Log = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 
@@ -82,7 +82,8 @@ def under_pressure(
     kelvin, pressure = np.linspace(*temperatures, 45), np.linspace(0.0, largest_pressure, 21)[1:]
     with np.errstate(all="ignore"):
         values = log(pressure[:, None], kelvin)
-        usual = float(log(np.array(min(REFERENCE_PRESSURE, largest_pressure)), np.array(kelvin[0])))
+        reference = min(REFERENCE_PRESSURE, largest_pressure), float(np.clip(IN_USE[0], *temperatures))
+        ambient, usual = (float(log(np.array(p), np.array(reference[1]))) for p in (0.0, reference[0]))
     rising = np.argwhere(np.diff(values, axis=1) > 0.0)
     if len(rising):
         (at, first), last = rising[0], rising[:, 1].max()
@@ -92,9 +93,10 @@ def under_pressure(
             f"{pressure[at] * 1e-9:.2g} GPa: the pressure-viscosity coefficient falls too little"
         )
         yield finding("oil_thickens", text, place)
-    if usual > np.log(THICKEST):
+    if usual - ambient > np.log(MOST_RISE):
         text = (
-            f"{name} has {np.exp(usual):.2g} Pa s at {min(REFERENCE_PRESSURE, largest_pressure) * 1e-9:g} GPa and "
-            f"{kelvin[0] - ZERO_CELSIUS:g} °C by {law}, where lubricating oils have no more than about 1e5"
+            f"{name} has {np.exp(usual):.2g} Pa s at {reference[0] * 1e-9:g} GPa and "
+            f"{reference[1] - ZERO_CELSIUS:g} °C by {law}, {np.exp(usual - ambient):.2g} times the ambient one; "
+            f"lubricating oils become solid before {MOST_RISE:.0e} times"
         )
         yield finding("oil_viscosity_implausible", text, place)

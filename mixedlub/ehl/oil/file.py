@@ -24,7 +24,8 @@ from mixedlub.ehl.oil.lubricant import from_lubricant
 from mixedlub.ehl.oil.oil import Oil, constant, expansion_of
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.build import lubricant
-from mixedlub.schema.findings import collected, warn_of
+from mixedlub.rig.oil_doubts import under_pressure
+from mixedlub.schema.findings import collected, report, warn_of
 from mixedlub.schema.oil_file import SCHEMA, SUFFIX
 from mixedlub.schema.section import Number, Section, check_keys_of, key
 from mixedlub.schema.system_file import Lubricant
@@ -152,8 +153,20 @@ def oil_of(named: str, folder: Path, where: str) -> Oil:
         path = named_file(folder, named, where)
         content = read_toml(path)
         if content.get("schema") != SCHEMA:
-            return build(parse(OilFile, content, str(path)))
+            return _judged(parse(OilFile, content, str(path)))
     return from_lubricant(lubricant(parse(Lubricant, {"oil": named}, where), folder=folder))
+
+
+def _judged(file: OilFile) -> Oil:
+    """The oil of a file; doubts of its viscosity under pressure, within its range, are reported."""
+    found = build(file)
+    limits: dict[str, Any] = {}
+    if file.range is not None:
+        limits = {"temperatures": found.temperatures, "largest_pressure": found.largest_pressure}
+    law = f'viscosity.law = "{file.viscosity.law}"'
+    for one in under_pressure(file.name, lambda p, t: found.log_viscosity(p, t)[0], law, "viscosity", **limits):
+        report(one)
+    return found
 
 
 def build(file: OilFile) -> Oil:
