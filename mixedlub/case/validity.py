@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 
 from mixedlub.case.forward import Forward
+from mixedlub.chain.limits import contact_limits, law_limits
 from mixedlub.chain.model import Chain, Parameters
 from mixedlub.chain.ranges import Reached, farthest_beyond, findings, flags, validity
 from mixedlub.effects import known_in
 from mixedlub.laws.contact import asperity_load_ratio
 from mixedlub.laws.film import film_over_contact_width
-from mixedlub.laws.limits import contact_limits, law_limits
 from mixedlub.laws.load import carries_load
 from mixedlub.schema.findings import Finding
 

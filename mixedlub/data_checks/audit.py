@@ -7,13 +7,13 @@ import numpy as np
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
 from mixedlub.case.validity import judge_rows
+from mixedlub.chain.limits import FAR_FROM_OIL
 from mixedlub.data_checks.included import unmodelled_losses
 from mixedlub.data_checks.misread import NEGATIVE_SIGMAS, misread, sds
 from mixedlub.data_checks.mixed_units import of_odd_units
 from mixedlub.data_checks.placeholders import placeholders
 from mixedlub.data_checks.sign_checks import both_signs, of_other_sign
 from mixedlub.kinds.kind import gears_out
-from mixedlub.laws.limits import FAR_FROM_OIL
 from mixedlub.recording.conditions import PASSING, raw_coordinates
 from mixedlub.recording.noise import (
     is_stated,

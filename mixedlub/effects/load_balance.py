@@ -41,6 +41,7 @@ EXPONENT = DOWSON_TOYODA.speed - DOWSON_TOYODA.material
         "starvation",
         "roughness_lay",
         "film_law",
+        "soft_contact_film",
         "boundary_film",
         "boundary_film_temperature",
     ),

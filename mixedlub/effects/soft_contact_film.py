@@ -15,8 +15,9 @@ from mixedlub.laws.film import hamrock_dowson_soft
             "share", "-", Normal(1.0, 0.1), "way from the film of hard to that of soft contacts", null=0.0, symbol="s"
         ),
     ),
-    equation=r"h \leftarrow h\left(\frac{h_s}{h_r}\right)^{s},\quad "
-    r"h_s = 7.32\,R_x\,(1 - 0.72\,e^{-0.28 k})\,U^{0.64} W^{-0.22}",
+    equation=r"h \leftarrow h\left(\frac{h_s}{h_r}\right)^{s},\quad h_s = 7.32\,R\,(1 - 0.72\,e^{-0.28\,k})"
+    r"\left(\frac{\eta_0 u}{E' R}\right)^{0.64}\left(\frac{F}{E' R^2}\right)^{-0.22},\quad "
+    r"k = 1.03\left(\frac{R_y}{R}\right)^{0.64}",
     source="B. J. Hamrock, D. Dowson, J. Lubr. Technol. 100 (1978) 236",
     fingerprint={},
     separated_by="speed and load: a soft film grows with U^0.64 and falls with W^0.22, and oils of equal viscosity but "

@@ -14,6 +14,7 @@ import numpy as np
 
 from mixedlub import friction
 from mixedlub.chain.effect import Effect
+from mixedlub.chain.limits import law_limits
 from mixedlub.chain.model import Chain, Law, Model, Parameters
 from mixedlub.chain.ranges import Limit, of_law
 from mixedlub.chain.slots import ASPERITY_LOAD
@@ -21,7 +22,6 @@ from mixedlub.effects import find
 from mixedlub.friction import FrictionLaw
 from mixedlub.gear import GearPair, Mesh
 from mixedlub.gear.inputs import motion_inputs
-from mixedlub.laws.limits import law_limits
 from mixedlub.laws.load import LEAST_SHARE
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.laws.rough_film import THINNEST

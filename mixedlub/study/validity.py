@@ -7,9 +7,9 @@ from typing import Protocol
 
 import numpy as np
 
+from mixedlub.chain.limits import BALANCE, contact_limits
 from mixedlub.chain.ranges import EXTRAPOLATED, Reached, findings, flags
 from mixedlub.chain.slots import SLOTS
-from mixedlub.laws.limits import BALANCE, contact_limits
 from mixedlub.schema.findings import Finding
 from mixedlub.study.batch import BEYOND
 from mixedlub.study.plan import Plan, Study

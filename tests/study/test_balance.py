@@ -7,13 +7,13 @@ import csv
 import numpy as np
 import pytest
 
+from mixedlub.chain.limits import BALANCE as ADVICE
 from mixedlub.chain.slots import ASPERITY_AREA, ASPERITY_LOAD, FILM
 from mixedlub.friction import BASE
 from mixedlub.laws import contact, yielding
 from mixedlub.laws.balance import least_film_share
 from mixedlub.laws.balanced import balanced_film, sharing_exponent
 from mixedlub.laws.film import dowson_toyoda, isoviscous_ratio, moes
-from mixedlub.laws.limits import BALANCE as ADVICE
 from mixedlub.schema.findings import Severity, codes
 from mixedlub.study import read_study, run_study
 from mixedlub.study.batch import SHARED

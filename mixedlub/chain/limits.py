@@ -10,7 +10,6 @@ import numpy as np
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Step
 from mixedlub.chain.ranges import Ends, Limit, declared, of_law
-from mixedlub.laws.balanced import EXACT
 
 LEAST_HARD_MODULUS = 50e9
 """Judgement. Reduced modulus (Pa) of metals, ceramics and glass at least."""
@@ -19,6 +18,8 @@ RATED_RATIO, YIELD_RATIO = 0.018, 0.025
 bodies yield under the whole contact; polymers bear a larger share."""
 FAR_FROM_OIL = 30.0
 """Judgement. Kelvin outside the two viscosity points up to which the viscosity-temperature law is accurate enough."""
+EXACT = 1e-8
+"""Largest part of the load by which film and asperities together may miss it."""
 BROAD = 1.5
 """Definition. Least Nayak bandwidth of isotropic Gaussian surfaces; no profile has less than 1."""
 
