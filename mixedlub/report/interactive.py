@@ -68,7 +68,7 @@ def explorer(results: Results) -> Explorer:
     import vl_convert
 
     rows = chart_rows(results)
-    flags = [(code, one.text) for code, one in zip(results.flags, out_of_range(results), strict=True)]
+    flags = [(code, one.text) for code, one in zip(results.flags, out_of_range(results), strict=False)]
     version = ".".join(alt.SCHEMA_VERSION.split(".")[:2])
     library = vl_convert.javascript_bundle(vl_version=version)  # type: ignore[call-arg]
     return Explorer(specification(results, rows), rows, library, flags)
