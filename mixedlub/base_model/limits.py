@@ -19,6 +19,8 @@ RATED_RATIO, YIELD_RATIO = 0.018, 0.025
 bodies yield under the whole contact; polymers bear a larger share."""
 FAR_FROM_OIL = 30.0
 """Judgement. Kelvin outside the two viscosity points up to which the viscosity-temperature law is accurate enough."""
+EXACT = 1e-8
+"""Largest part of the load by which film and asperities together may miss it."""
 BROAD = 1.5
 """Definition. Least Nayak bandwidth of isotropic Gaussian surfaces; no profile has less than 1."""
 

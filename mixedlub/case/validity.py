@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from inspect import signature
 from typing import Any
 
@@ -11,19 +11,22 @@ import numpy as np
 
 from mixedlub.base_model.limits import contact_limits, law_limits
 from mixedlub.case.forward import Forward
+from mixedlub.base_model.limits import contact_limits, law_limits
 from mixedlub.chain.model import Chain, Parameters
 from mixedlub.chain.ranges import Reached, farthest_beyond, findings, flags, validity
 from mixedlub.effects import known_in
 from mixedlub.laws.contact import asperity_load_ratio
 from mixedlub.laws.film import film_over_contact_width
 from mixedlub.laws.load import carries_load
-from mixedlub.schema.findings import Finding
+from mixedlub.schema.findings import Finding, Severity
 
 CHECKS: Chain = (
     ("film_over_contact_width", film_over_contact_width),
     ("asperity_load_ratio", asperity_load_ratio),
 )
 """Quantities that are judged and that no reading depends on."""
+OF_BASE_MODEL = ("asperities_overloaded",)
+"""Codes that are notes here: the base model of a recording has no balance of load, so most rough surfaces have them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +45,8 @@ class Judged:
     @property
     def findings(self) -> tuple[Finding, ...]:
         """A finding on each code, the gravest first."""
-        return findings(self.reached, (self.count,), "rows", self.source)
+        said = findings(self.reached, (self.count,), "rows", self.source)
+        return tuple(replace(one, severity=Severity.NOTE) if one.code in OF_BASE_MODEL else one for one in said)
 
 
 def judge_rows(

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
+from mixedlub.base_model.limits import contact_limits
+from mixedlub.chain.ranges import Reached, findings
 from mixedlub.chain.slots import ASPERITY_LOAD
 from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.mixed import Asperities, laws, solve_mixed, yielding
@@ -162,7 +164,7 @@ class EhlFile(Section):
 class Problem:
     """Contacts of a file with their oil; ``position`` is the place on a path of contact (m), NaN of others.
 
-    ``notes`` are what was assumed of the oil.
+    ``notes`` are contacts outside the range of elastic bodies, and assumptions on the oil.
     """
 
     file: EhlFile
@@ -170,6 +172,12 @@ class Problem:
     contacts: Contacts
     position: np.ndarray
     notes: tuple[Finding, ...] = ()
+
+    @property
+    def reached(self) -> Reached:
+        """Limits of bodies that stay elastic, with the values of the contacts."""
+        limits = contact_limits({"reduced_modulus": self.contacts.modulus})
+        return [(limit, self.contacts.pressure) for limit in limits if limit.quantity == "hertz_pressure"]
 
 
 def read_problem(path: Path) -> Problem:
@@ -189,7 +197,8 @@ def read_problem(path: Path) -> Problem:
         check(oil, contacts, thermal=file.thermal)
     except InputError as error:
         raise InputError(error.rule, where=f"{path}: {error.where}", value=error.value) from None
-    return Problem(file, oil, contacts, position, tuple(notes))
+    found = Problem(file, oil, contacts, position)
+    return replace(found, notes=(*findings(found.reached, contacts.pressure.shape, "contacts"), *notes))
 
 
 def solved_problem(problem: Problem, way: Way) -> xarray.Dataset:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
+from mixedlub.chain.ranges import flags, validity
 from mixedlub.ehl.file import Problem
 from mixedlub.ehl.measures import CHECKS, PROFILES, QUANTITIES
 from mixedlub.ehl.mixed import SHARES
@@ -38,6 +39,7 @@ def contact_table(problem: Problem, data: xarray.Dataset) -> pd.DataFrame:
         "moes_load": load,
         "moes_material": material,
         "status": data["status"].to_numpy(),
+        "validity": validity(flags(problem.reached, contacts.pressure.shape), contacts.pressure.shape),
     }
     for name, quantity in QUANTITIES.items():
         values = data[name].to_numpy()

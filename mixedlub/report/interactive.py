@@ -65,7 +65,7 @@ class Explorer:
 def explorer(results: Results) -> Explorer:
     """The interactive chart of a study with its rows; without its library, which is an extra, the rows alone."""
     rows = chart_rows(results)
-    flags = [(code, one.text) for code, one in zip(results.flags, out_of_range(results), strict=True)]
+    flags = [(code, one.text) for code, one in zip(results.flags, out_of_range(results), strict=False)]
     try:
         import altair as alt
         import vl_convert
