@@ -74,27 +74,6 @@ def checked_count(count: int, available: int, where: str) -> int:
     return count
 
 
-def equal_spacing(positions: np.ndarray, quantum: float, where: str) -> float:
-    """The step of positions that are equally spaced but for the rounding ``quantum`` they were written with.
-
-    A column rounded to 0.1 um still has the step it was measured with: first to last over the count.
-    """
-    steps = np.diff(positions)
-    if not (steps >= 0).all() or positions[-1] <= positions[0]:
-        row = int(np.argmin(steps > 0)) + 1
-        raise InputError("positions must increase", where=f"{where}: point {row + 1}", value=float(positions[row]))
-    step = float((positions[-1] - positions[0]) / steps.size)
-    off = np.abs(positions - (positions[0] + step * np.arange(positions.size)))
-    worst = int(off.argmax())
-    if off[worst] > 1e-3 * step and (off[worst] > 1.01 * quantum or quantum > 0.75 * step):
-        raise InputError(
-            "positions must be equally spaced; if only their column is bad, give the step as spacing '0.5 um'",
-            where=f"{where}: point {worst + 1}",
-            value=float(positions[worst]),
-        )
-    return step
-
-
 def bridged(heights: np.ndarray, present: np.ndarray, where: str) -> np.ndarray:
     """Heights with missing points bridged by straight lines; at least half must be there."""
     if present.all():

@@ -40,7 +40,7 @@ class SmdReader:
         if axes["CX"][1] != "I":
             raise InputError("only equally spaced profiles (I) are read", where=f"{where}: CX", value=axes["CX"][1])
         points, _, scale, _ = _axis(axes.get("CZ"), 5, where)
-        heights = table(records[2].replace("\x00", ""), f"{where}: heights").columns
+        heights = table(records[2].replace("\x00", ""), f"{where}: heights").alone(where).columns
         if heights.shape[0] != 1 or heights.shape[1] != count or points != count:
             raise InputError(f"the header declares {count} and {points} points", where=where, value=heights.shape[1])
         checked_count(count, heights.shape[1], where)

@@ -9,7 +9,8 @@ import numpy as np
 from profiles.errors import InputError
 from profiles.profile import Profile
 from profiles.readers.archive import check_archive, members
-from profiles.readers.base import Source, equal_spacing, foreign_parser, make_profile
+from profiles.readers.base import Source, foreign_parser, make_profile
+from profiles.readers.positions import sampled
 
 
 class X3pReader:
@@ -41,7 +42,10 @@ class X3pReader:
             increment = content.header.x.increment
         if z.size < 3:
             raise InputError("a profile needs at least three heights", where=source.where, value=z.size)
-        spacing = increment if regular and increment else equal_spacing(x, 0.0, source.where)
         steps = (f"layer 1 of {len(layers)} read",) if len(layers) > 1 else ()
         present = np.isfinite(z)
-        return make_profile(source, z, float(spacing), {"format": self.format}, present=present, steps=steps)
+        step = float(increment or 0.0)
+        if not (regular and step):
+            found = sampled(x, z, present, 0.0, source.where)
+            z, present, step, steps = found.heights, found.present, found.step, (*steps, *found.notes)
+        return make_profile(source, z, step, {"format": self.format}, present=present, steps=steps)
