@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from profiles import Profile
+from roughness.clipping import clipping
 from roughness.defects import CUT
 from roughness.moments import Moments, moments
 from roughness.noise import height_quantum, noise_moments, tip_limited_wavelength
@@ -52,6 +53,7 @@ def trace_warnings(profile: Profile, found: Moments, *, raw: Profile) -> list[st
     return [
         *_inferred(raw),
         *overruled(raw),
+        *_clipped(raw),
         *_cut(profile),
         *_stated(profile, raw),
         *_instrument(profile, found, raw),
@@ -189,6 +191,15 @@ def overruled(raw: Profile) -> Iterator[str]:
     for what in ("units", "spacing"):
         if f"{what}_overruled" in raw.origin:
             yield f"{what}: {raw.origin[f'{what}_overruled']}"
+
+
+def _clipped(raw: Profile) -> Iterator[str]:
+    """Heights beyond the range of the instrument."""
+    if found := clipping(raw):
+        yield (
+            f"{found}, unless the part has such flats: Rz, Rsk, Rku, the summits and whether the heights are Gaussian "
+            "are doubtful; measure again in a wider range"
+        )
 
 
 def _cut(profile: Profile) -> Iterator[str]:

@@ -24,7 +24,8 @@ _UNIT_NAMES = ("unit", "units", "z unit", "height unit")
 _POSITION_UNIT_NAMES = ("x unit", "position unit", *_UNIT_NAMES)
 _COUNT_NAMES = ("points", "number of points", "count", "samples", "data points")
 _RESULT = re.compile(
-    r'\W*([PRW][A-Za-z]\w{0,4})\W*?(?:[\[(]\s*([^\])]*?)\s*[\])])?[\s,;:="]+([-+]?\d[\d.,]*)["\s,;]*(\S*)\s*\Z'
+    r"\W*([PRW][A-Za-z]\w{0,4})\W*?(?:[\[(]\s*([^\])]*?)\s*[\])])?"
+    r"[\s,;:=\"]+([-+]?\d[\d.,]*)[\"\s,;]*(\S*)\s*\Z"
 )
 _HEIGHTS_STATED = "aqztpv"
 """Second letters of the parameters that are heights: without a unit they have the unit of the heights."""
@@ -37,9 +38,9 @@ class TextReader:
     columns. Units come from the caller, else from the header (``x_mm``, ``[mm]``, ``z (um)``,
     ``unit: um``), else, one or both, from the pair of units that is clearly the most plausible; the profile's
     ``steps`` and ``origin`` say when they were inferred, and when those of the heading are not plausible.
-    Positions that fall are turned, unequal ones resampled. A height that is empty or reads ``NaN`` is masked. A count of
-    the heights in the first lines of numbers is none of them: with a length beside it, it gives the step. Results below
-    the numbers go to ``origin["stated"]``.
+    Positions that fall are turned, unequal ones resampled. A height that is empty or reads ``NaN`` is masked. A
+    count of the heights in the first lines of numbers is none of them: with a length beside it, it gives the step.
+    Results below the numbers go to ``origin["stated"]``.
 
     Checked against the nine text traces of public repositories in the test data and constructed files.
     """
@@ -139,7 +140,7 @@ def _own_steps(
     unit: str | None,
     origin: dict[str, object],
 ) -> tuple[Sampled, str | None]:
-    """The trace at equal steps and their unit; at the caller's step where the positions have no equal one or no unit."""
+    """The trace at equal steps and their unit; at the caller's step where the positions have no equal one or unit."""
     told = source.spacing
     if told is None:
         return sampled(position, heights, present, quantum, source.where), unit
