@@ -11,6 +11,7 @@ import numpy as np
 from profiles import InputError, Profile
 from profiles.profile import of_profile
 from roughness.asperities import Asperities, mccool_asperities
+from roughness.clipping import clipping
 from roughness.cutoffs import choose_cutoffs, short_cutoff_for
 from roughness.defects import mask_edges, mask_outliers, without_edges
 from roughness.elements import element_parameters
@@ -51,6 +52,8 @@ def evaluation_profile(
     instruments cut half a cut-off (``trim_cutoffs`` 0.5). ``method`` as in :func:`roughness_profile`.
     """
     _refuse_useless(trace)
+    if found := clipping(trace):
+        trace = replace(trace, origin={**trace.origin, "clipped": found})
     filtered = cutoff == "auto" and "cutoff" in trace.cutoffs
     if filtered and form == "line":
         profile = trace

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.base_model.balanced import EXACT
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Step
 from mixedlub.chain.ranges import Ends, Limit, declared, of_law

@@ -11,7 +11,6 @@ import numpy as np
 
 from mixedlub.base_model.limits import contact_limits, law_limits
 from mixedlub.case.forward import Forward
-from mixedlub.base_model.limits import contact_limits, law_limits
 from mixedlub.chain.model import Chain, Parameters
 from mixedlub.chain.ranges import Reached, farthest_beyond, findings, flags, validity
 from mixedlub.effects import known_in

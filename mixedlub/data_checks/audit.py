@@ -8,7 +8,6 @@ from mixedlub.base_model.limits import FAR_FROM_OIL
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
 from mixedlub.case.validity import judge_rows
-from mixedlub.base_model.limits import FAR_FROM_OIL
 from mixedlub.data_checks.included import unmodelled_losses
 from mixedlub.data_checks.misread import NEGATIVE_SIGMAS, misread, sds
 from mixedlub.data_checks.mixed_units import of_odd_units

@@ -15,7 +15,6 @@ import numpy as np
 from mixedlub import friction
 from mixedlub.base_model.limits import law_limits
 from mixedlub.chain.effect import Effect
-from mixedlub.base_model.limits import law_limits
 from mixedlub.chain.model import Chain, Law, Model, Parameters
 from mixedlub.chain.ranges import Limit, of_law
 from mixedlub.chain.slots import ASPERITY_LOAD

@@ -15,6 +15,10 @@ DENSER = 10
 """Resampled points a measured point, at most: beyond it the positions are no trace's."""
 
 
+RESAMPLED = "resampled to equal steps"
+"""How the note begins on a trace whose positions are unequal."""
+
+
 @dataclass(frozen=True, eq=False)
 class Sampled:
     """Heights at equal steps, which of them were measured, the step, and notes on the changes made."""
@@ -78,6 +82,6 @@ def _resampled(
     before = np.clip(np.searchsorted(positions, places, side="right") - 1, 0, steps.size - 1)
     inside = present[before] & present[before + 1] & (steps[before] <= GAP * step)
     measured = np.where(places - positions[before] <= 1e-6 * step, present[before], inside)
-    said = f"resampled to equal steps by a cubic spline, as its steps are {steps.min():.4g} to {steps.max():.4g}"
+    said = f"{RESAMPLED} by a cubic spline, as its steps are {steps.min():.4g} to {steps.max():.4g}"
     z = PchipInterpolator(positions, heights)(places)
     return Sampled(bridged(z, measured, where), measured, step, (*notes, said))

@@ -12,7 +12,7 @@ from profiles.profile import Profile
 from profiles.readers.base import Source, bridged, make_profile
 from profiles.readers.numbers import Counted, Table, decoded, number, split, table
 from profiles.readers.plausible import Units, doubt, inferred_note, inferred_units
-from profiles.readers.positions import Sampled, sampled
+from profiles.readers.positions import RESAMPLED, Sampled, sampled
 from profiles.units import METRES, known_unit, length, metres
 
 _LAST_WORD = re.compile(r"([\[(/_ ])\s*([^\s\[\]()/_]+)\s*[\])]?\s*\Z")
@@ -24,7 +24,8 @@ _UNIT_NAMES = ("unit", "units", "z unit", "height unit")
 _POSITION_UNIT_NAMES = ("x unit", "position unit", *_UNIT_NAMES)
 _COUNT_NAMES = ("points", "number of points", "count", "samples", "data points")
 _RESULT = re.compile(
-    r'\W*([PRW][A-Za-z]\w{0,4})\W*?(?:[\[(]\s*([^\])]*?)\s*[\])])?[\s,;:="]+([-+]?\d[\d.,]*)["\s,;]*(\S*)\s*\Z'
+    r"\W*([PRW][A-Za-z]\w{0,4})\W*?(?:[\[(]\s*([^\])]*?)\s*[\])])?"
+    r"[\s,;:=\"]+([-+]?\d[\d.,]*)[\"\s,;]*(\S*)\s*\Z"
 )
 _HEIGHTS_STATED = "aqztpv"
 """Second letters of the parameters that are heights: without a unit they have the unit of the heights."""
@@ -37,9 +38,9 @@ class TextReader:
     columns. Units come from the caller, else from the header (``x_mm``, ``[mm]``, ``z (um)``,
     ``unit: um``), else, one or both, from the pair of units that is clearly the most plausible; the profile's
     ``steps`` and ``origin`` say when they were inferred, and when those of the heading are not plausible.
-    Positions that fall are turned, unequal ones resampled. A height that is empty or reads ``NaN`` is masked. A count of
-    the heights in the first lines of numbers is none of them: with a length beside it, it gives the step. Results below
-    the numbers go to ``origin["stated"]``.
+    Positions that fall are turned, unequal ones resampled. A height that is empty or reads ``NaN`` is masked. A
+    count of the heights in the first lines of numbers is none of them: with a length beside it, it gives the step.
+    Results below the numbers go to ``origin["stated"]``.
 
     Checked against the nine text traces of public repositories in the test data and constructed files.
     """
@@ -92,14 +93,15 @@ def _read_heights(
 ) -> Read:
     """One column of heights, with the step of a setting, of the caller, or of a length over a count."""
     heights, present = content.columns[0], np.isfinite(content.columns[0])
-    step = _header_spacing(settings, source.where) or source.spacing
-    if step is None and content.counted and content.counted.length:
+    step = _header_spacing(settings, source.where)
+    if step is None and content.counted and content.counted.length and (written[0] or source.spacing is None):
         own = content.counted.length / content.counted.count
         units = inferred_units(own, bridged(heights, present, source.where), source.where, written)
         said = f"step {own:.6g} {units[0]}: the length {content.counted.length:g} over the count in"
         if units != written:
             origin["units_inferred"] = inferred_note(written, units)
         return Sampled(heights, present, own), units, (f"{said} line {content.counted.line}",)
+    step = step or source.spacing
     if step is None:
         raise InputError(
             "one column of heights needs its step: in a line 'spacing: 0.5 um', or as spacing '0.5 um'",
@@ -138,7 +140,7 @@ def _own_steps(
     unit: str | None,
     origin: dict[str, object],
 ) -> tuple[Sampled, str | None]:
-    """The trace at equal steps and their unit; at the caller's step where the positions have no equal one or no unit."""
+    """The trace at equal steps and their unit; at the caller's step where the positions have no equal one or unit."""
     told = source.spacing
     if told is None:
         return sampled(position, heights, present, quantum, source.where), unit
@@ -148,7 +150,7 @@ def _own_steps(
     except InputError as error:
         origin["spacing_overruled"] = f"{error.rule.partition(';')[0]}, taken as rising by {as_told:.6g} um as told"
         return Sampled(heights, present, as_told), "um"
-    if found.heights.size != heights.size or any("resampled" in note for note in found.notes):
+    if any(note.startswith(RESAMPLED) for note in found.notes):
         said = found.notes[-1].partition("as its ")[2]
         origin["spacing_overruled"] = (
             f"the positions rise, but their {said}: taken as equal steps of {as_told:.6g} um as told; "
