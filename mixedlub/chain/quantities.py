@@ -152,6 +152,7 @@ load_fraction           | q_F        | -       | load on a drive over the larges
 additive_fraction       | q_a        | -       | content of an additive over the largest content tested
 gears_fitted            | chi        | -       | 1 with gears; without: share of friction left, 0 for a gear pair
 motor_torque            | T_m        | N m     | torque that the controller computes from the motor current
+load_torque             | T_L        | N m     | torque of the load, of the sign of the speed where the motor drives
 reference_torque        | T_m0       | N m     | largest motor torque of the recording
 drive_angle             | phi        | rad     | angle the drive has turned
 pressure                | p          | Pa      | hydrostatic pressure

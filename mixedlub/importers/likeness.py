@@ -6,9 +6,11 @@ import difflib
 import re
 from collections.abc import Iterable, Mapping, Sequence
 
+import numpy as np
+
 from mixedlub.importers.answer_keys import COLUMNS
 from mixedlub.importers.base import Question
-from mixedlub.importers.text_table import Cells, is_numeric
+from mixedlub.importers.text_table import Cells, is_numeric, values_of
 from mixedlub.importers.time_base import TIME, counted
 from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, WEIGHED, Target, family, is_kinematic, target_of
 from mixedlub.kinds import KINDS
@@ -41,6 +43,8 @@ DERIVED = re.compile(
     r"drop|wear|roughness|steigung|dämpfung|steifigkeit|dauer|fehler|grenze|verschleiß|rauheit)s?\.?"
 )
 """Words for a quantity derived from the column: the slope of a friction is no friction."""
+WEAR = re.compile(r"\bwear\b|\b(?:weight|mass|volume)[ _]loss\b|verschleiß|massenverlust")
+"""Words of a wear, which has columns of its own in many tables of friction."""
 AS_IT_IS = {"corrected", "compensated", "free"}
 """Words that cancel one of those: a friction whose zero is corrected."""
 OTHERS = {
@@ -126,7 +130,10 @@ def is_logarithm(header: str) -> bool:
     return logged is not None and (unit is None or not is_unit(unit))
 
 
-SPREAD = re.compile(r"(?:standard deviation|std\.? dev|st\.? ?dev|stddev|std|sd)\.?")
+SPREAD = re.compile(
+    r"(?:standard deviation|std\.? dev|st\.? ?dev|stddev|std|sd|"
+    r"(?:stated |expanded |standard |measurement )?uncertainty|(?:mess)?unsicherheit)\.?"
+)
 BEFORE, AFTER = re.compile(rf"{SPREAD.pattern}\b(?: of)?"), re.compile(rf"\b{SPREAD.pattern}$")
 
 
@@ -158,6 +165,24 @@ def likely_spread(reading: Target, header: str, cells: Cells) -> str | None:
     return max(n_words, key=lambda other: n_words[other], default=None)
 
 
+def relative_spread_notes(free: Cells) -> list[str]:
+    """Notes on columns of relative uncertainties, with the setting that takes their median.
+
+    >>> relative_spread_notes({"Uncertainty (%)": ["1", "2", "2"]})
+    ["'Uncertainty (%)' is not taken; if it is that of the readings: --set recording.noise.relative=0.02"]
+    """
+    shares = {h: values_of(cells) / 100.0 for h, cells in free.items() if spread_of(h) is not None and _percent(h)}
+    return [
+        f"{h!r} is not taken; if it is that of the readings: --set recording.noise.relative={np.nanmedian(share):g}"
+        for h, share in shares.items()
+        if np.isfinite(share).any()
+    ]
+
+
+def _percent(header: str) -> bool:
+    return split(header)[1] == "%"
+
+
 def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
     """Similarity of a header to a column by words and unit; 0 where unit, words or cells exclude it.
 
@@ -177,7 +202,7 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
         or (column == "viscosity_mPa_s" and "kinematic" in words.split() and not is_kinematic(unit))
     ):
         return 0.0
-    if _is_derived(column, words) or NO_READING.get(column, set()) & set(words.split()):
+    if WEAR.search(words) or _is_derived(column, words) or NO_READING.get(column, set()) & set(words.split()):
         return 0.0
     numbers = is_numeric(cells)
     if column in TEXT_COLUMNS:
