@@ -292,7 +292,7 @@ def _missing(
         header = None if rivals else header
         text += "; one that counts cycles or a distance will do" if column == TIME else ""
         places = [] if header or column not in FROM_POSITION else positions(cells)
-        text += f"; or the change of a position: --set {shlex.quote(f'{SPEED_FROM}={places[0]}')}" if places else ""
+        text += f"; or the change of a position: --set {quoted(f'{SPEED_FROM}={places[0]}')}" if places else ""
         others = [] if header or rivals else transmitted(column, free)
         if others:
             text += f"; not proposed: {', '.join(others)}, as by its words none of these is one; where it is their "

@@ -207,6 +207,6 @@ def _values(rule: Column, header: str, sheet: Sheet, unit: str | None) -> np.nda
             native = unit is None or float(cells[row]) == values[row]
             meant = "" if native else f": {cells[row]} {unit} is {values[row]:g} {unit_of(rule.name)}"
             text = (error.rule if native else error.rule.partition(";")[0]) + meant
-            text += f"; --set {shlex.quote(f'{ONLY}{header}=LOW..HIGH')} keeps the rows within a range"
+            text += f"; --set {quoted(f'{ONLY}{header}=LOW..HIGH')} keeps the rows within a range"
             raise InputError(text, where=error.where, value=cells[row]) from None
     return values
