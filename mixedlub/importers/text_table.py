@@ -118,8 +118,9 @@ class TextColumn(list[str]):
 class Sheet:
     """The cells of a table by header, the line of each row, which lines are outside the table, and notes.
 
-    ``repeated`` says which lines repeat the header, ``summaries`` which rows of means or sums are left out. ``faults`` are cells that hold an error of a
-    spreadsheet or an infinite number, by header and line; they are empty in ``cells``.
+    ``repeated`` says which lines repeat the header, ``summaries`` which rows of means or sums are left out. ``faults``
+    are cells that hold an error of a spreadsheet or an infinite number, by header and line; they are empty in
+    ``cells``.
     """
 
     name: str

@@ -37,9 +37,9 @@ class TextReader:
     columns. Units come from the caller, else from the header (``x_mm``, ``[mm]``, ``z (um)``,
     ``unit: um``), else, one or both, from the pair of units that is clearly the most plausible; the profile's
     ``steps`` and ``origin`` say when they were inferred, and when those of the heading are not plausible.
-    Positions that fall are turned, unequal ones resampled. A height that is empty or reads ``NaN`` is masked. A count of
-    the heights in the first lines of numbers is none of them: with a length beside it, it gives the step. Results below
-    the numbers go to ``origin["stated"]``.
+    Positions that fall are turned, unequal ones resampled. A height that is empty or reads ``NaN`` is masked. A count
+    of the heights in the first lines of numbers is none of them: with a length beside it, it gives the step. Results
+    below the numbers go to ``origin["stated"]``.
 
     Checked against the nine text traces of public repositories in the test data and constructed files.
     """
@@ -138,7 +138,7 @@ def _own_steps(
     unit: str | None,
     origin: dict[str, object],
 ) -> tuple[Sampled, str | None]:
-    """The trace at equal steps and their unit; at the caller's step where the positions have no equal one or no unit."""
+    """The trace at equal steps and their unit; at the caller's step where positions are unequal or have no unit."""
     told = source.spacing
     if told is None:
         return sampled(position, heights, present, quantum, source.where), unit
