@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -103,7 +103,7 @@ def frame_of(found: Any, columns: Iterable[ResultColumn], shape: tuple[int, ...]
 
 def declared(columns: Iterable[ResultColumn], name: str) -> ResultColumn:
     """The declaration of a column of a table; of one that has none, its name with the unit in it."""
-    return next((one for one in columns if one.declares(name)), ResultColumn("", name, ""))
+    return next((replace(one, name=name) for one in columns if one.declares(name)), ResultColumn("", name, ""))
 
 
 @dataclass(frozen=True)
