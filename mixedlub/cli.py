@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import os
+import re
 import sys
 import warnings
 from collections.abc import Sequence
@@ -83,6 +85,8 @@ PARTIAL = {
     prove.NAME: "**/*",
 }
 """Commands that keep what they did when they are stopped, with the pattern of those files."""
+UNUSABLE = (errno.ENAMETOOLONG, errno.EACCES, errno.EPERM, errno.EROFS, errno.ELOOP, errno.ENOTDIR, errno.EISDIR)
+"""Errors of a path as the user's system has it: too long, not readable, no folder."""
 CTRL_C = 130
 """Status of a command that Ctrl-C stopped, as shells have it; that of typer too."""
 
@@ -126,7 +130,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # What numbers overflow while far-off parameters are tried is not for the user.
         warnings.simplefilter("ignore", RuntimeWarning)
         warnings.showwarning = _show
-        return _run(spread_lists(list(sys.argv[1:] if arguments is None else arguments)) or ["--help"])
+        words = map(with_home, sys.argv[1:] if arguments is None else arguments)
+        return _run(spread_lists(list(words)) or ["--help"])
 
 
 def _show(message: Warning | str, *rest: object, **named: object) -> None:
@@ -142,7 +147,8 @@ def _run(words: list[str]) -> int:
         if status == CTRL_C:
             raise KeyboardInterrupt
         sys.stdout.flush()
-        forget_traceback()
+        if not status:
+            forget_traceback()
         return int(status or 0)
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -165,10 +171,22 @@ def _what_went_wrong(error: BaseException, kept: str) -> tuple[str, int]:
     if isinstance(error, OSError) and is_full(error):
         left = kept or "; the same command starts anew"
         return f"the disk of {opened() or error.filename} is full{left} once there is room", 1
+    if isinstance(error, OSError) and error.errno in UNUSABLE and error.filename is not None:
+        return str(InputError(f"cannot be used ({error.strerror})", where="path", value=str(error.filename))), 2
     if hasattr(error, "format_message") and hasattr(error, "exit_code"):
         place = getattr(getattr(error, "ctx", None), "command_path", "mixedlub")
         return f"{of_option(error.format_message())} (see {place} --help)", int(error.exit_code)
     return f"unexpected {type(error).__name__}: {error}; {save_traceback(error)}", 1
+
+
+def with_home(word: str) -> str:
+    """A word with the home folder in place of the ``~`` that begins it, also behind the name of an option.
+
+    >>> with_home("--out=~/gears") == "--out=" + os.path.expanduser("~/gears"), with_home("a~b")
+    (True, 'a~b')
+    """
+    option, path = re.fullmatch(r"(--[\w-]+=)?(.*)", word, re.DOTALL).groups("")  # type: ignore[union-attr]
+    return option + os.path.expanduser(path)
 
 
 def spread_lists(words: list[str]) -> list[str]:

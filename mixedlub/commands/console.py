@@ -6,6 +6,7 @@ import errno
 import shutil
 import sys
 import tempfile
+import time
 import traceback
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
@@ -27,31 +28,24 @@ CONDITIONS = (
 
 
 def named_folder(text: str) -> Path:
-    """The folder that an option names; an empty text would mean the current one."""
+    """The folder that an option names, ``~`` expanded; an empty text would mean the current one."""
     if not text.strip():
         raise typer.BadParameter("must name a folder; '.' is the current one")
-    return Path(text)
+    try:
+        return Path(text).expanduser()
+    except RuntimeError:
+        raise typer.BadParameter(f"no home folder of {text.partition('/')[0]!r} is known") from None
 
 
 _opened: list[Path] = []
 _made: list[Path] = []
 
 
-def output_folder(out: Path | None, command: str, name: str, *, knows_own: bool = False) -> Path:
-    """The output folder, created if necessary; ``out/COMMAND/NAME`` where none is given.
-
-    A command that ``knows_own`` results checks for itself which files it would replace.
-    """
+def output_folder(out: Path | None, command: str, name: str) -> Path:
+    """The output folder, created if necessary; ``out/COMMAND/NAME`` where none is given."""
     folder = Path("out") / command / name if out is None else out
-    if (
-        out is None
-        and not knows_own
-        and folder.is_dir()
-        and any(not path.name.startswith(".") for path in folder.iterdir())
-    ):
-        note(f"the result in {folder}, maybe of another input of that name, is replaced; --out names another folder")
-    _made[:] = [path for path in (folder, *folder.parents) if not path.exists()]
     try:
+        _made[:] = [path for path in (folder, *folder.parents) if not path.exists()]
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
             pass
@@ -103,17 +97,73 @@ def case_folder(case: Path) -> Path:
     return case
 
 
+EVERY_S = 20.0
+"""Time (s) between two lines on the progress of a run that has no terminal."""
+
+
+def now_and_then() -> Callable[[str], None]:
+    """The function that prints a line on progress to stderr, unless it printed another one a moment ago."""
+    last = time.monotonic()
+
+    def tell(text: str) -> None:
+        nonlocal last
+        if time.monotonic() - last >= EVERY_S:
+            last = time.monotonic()
+            echo(text, error=True)
+
+    return tell
+
+
 @contextmanager
 def busy(first: str) -> Iterator[Callable[[str], None]]:
-    """A progress line on stderr in an interactive terminal; yields the function that changes its text."""
+    """A progress line on stderr, or a line now and then without a terminal; yields the function that changes it."""
     from rich.console import Console
 
     console = Console(stderr=True)
     if not console.is_terminal:
-        yield lambda text: None
+        yield now_and_then()
         return
     with console.status(first) as status:
         yield status.update
+
+
+@contextmanager
+def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
+    """A progress bar on stderr for work of many blocks, or a line now and then without a terminal."""
+    from rich.console import Console
+
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        tell = now_and_then()
+        yield lambda done, of: tell(f"{what}: {done} of {of} blocks")
+        return
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    bar = Progress(
+        TextColumn(what),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TextColumn("blocks"),
+        TimeRemainingColumn(),
+        console=console,
+    )
+    with bar:
+        task = bar.add_task(what, total=None, visible=False)
+        yield lambda done, of: bar.update(task, completed=done, total=of, visible=of > 1)
+
+
+def resumed(progress: Callable[[int, int], None], parts: str = "blocks") -> Callable[[int, int], None]:
+    """The same progress callback, which first reports the parts that are kept from an earlier run."""
+    calls = 0
+
+    def counted(done: int, of: int) -> None:
+        nonlocal calls
+        calls += 1
+        if calls == 1 and done:
+            echo(f"{parts} kept from an earlier start: {done} of {of}; to compute: {of - done}")
+        progress(done, of)
+
+    return counted
 
 
 @contextmanager

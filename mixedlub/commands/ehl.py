@@ -5,29 +5,24 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
-from mixedlub.commands.console import echo, input_errors_from, note, output_folder, print_findings
-from mixedlub.commands.figure_options import FiguresOrTables, Formats, chosen_formats
-from mixedlub.commands.study import Scheduler, progress_bar, resumed
-from mixedlub.running.atomic import clear_parts, writing
-
-if TYPE_CHECKING:
-    import pandas as pd
+from mixedlub.commands.console import input_errors_from, print_findings, progress_bar, resumed
+from mixedlub.commands.deliver import How, deliver, delivers
+from mixedlub.commands.study import Scheduler
+from mixedlub.running.origin import origin_of_file
+from mixedlub.schema.result import Result
 
 NAME = "ehl"
 EXAMPLE = "mixedlub new ehl --out my_contacts\nmixedlub ehl my_contacts/contacts.toml"
 
 
+@delivers(NAME)
 def command(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="Contacts, or a gear pair and how it runs; an oil.")],
-    out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Folder for the results; default out/ehl/NAME.")
-    ] = None,
-    figures: FiguresOrTables = True,
-    format_: Formats = "svg",
+    how: How,
     scheduler: Scheduler = None,
 ) -> None:
     """Film, friction and temperatures of line contacts.
@@ -39,34 +34,30 @@ def command(
     """
     from mixedlub.ehl.file import read_problem, solved_problem
     from mixedlub.ehl.solve import CONVERGED, Way
-    from mixedlub.ehl.table import contact_table, profile_table
+    from mixedlub.ehl.table import TABLES, contact_table, profile_table
+    from mixedlub.report.ehl import ehl_figures
 
-    formats = chosen_formats(format_)
     with input_errors_from(str(file)):
         problem = read_problem(file)
+    to = how.open(file.stem, origin_of_file(file), TABLES)
     print_findings(problem.notes)
-    folder = output_folder(out, NAME, file.stem)
     start = time.perf_counter()
     with progress_bar("solving") as bar:
-        way = Way(folder, scheduler, resumed(bar))
-        data = solved_problem(problem, way)
+        data = solved_problem(problem, Way(to.folder, scheduler, resumed(bar)))
     taken = time.perf_counter() - start
-    table, profiles = contact_table(problem, data), profile_table(data)
+    tables = {"contacts": contact_table(problem, data), "profiles": profile_table(data)}
+    table = tables["contacts"]
     failed = table.loc[table["status"] != CONVERGED, "contact"].to_list()
-    with writing(folder) as aside:
-        table.to_csv(aside / "contacts.csv", index=False, lineterminator="\n", float_format="%.6g")
-        profiles.to_csv(aside / "profiles.csv", index=False, lineterminator="\n", float_format="%.6g")
-        if figures and len(profiles):
-            _draw(problem.file.title, table, profiles, aside, formats)
-    clear_parts(folder)
-    echo(f"{len(table) - len(failed)} of {len(table)} contacts solved in {taken:.2f} s")
+    lines = [f"{len(table) - len(failed)} of {len(table)} contacts solved in {taken:.2f} s"]
     for row in table.head(MOST_PRINTED).to_dict("records"):
-        echo(_line(row) if row["status"] == CONVERGED else _unsolved(row))
+        lines.append(_line(row) if row["status"] == CONVERGED else _unsolved(row))
+    notes = []
     if failed:
-        note(f"no solution of contact {', '.join(map(str, failed[:MOST_PRINTED]))}: its results are empty")
+        notes.append(f"no solution of contact {', '.join(map(str, failed[:MOST_PRINTED]))}: its results are empty")
     if problem.oil.newtonian and problem.contacts.pressure.max() > NEWTONIAN_PRESSURE:
-        note("the oil is Newtonian: above 0.5 GPa its friction is far too high")
-    echo(f"results in {folder / 'contacts.csv'}")
+        notes.append("the oil is Newtonian: above 0.5 GPa its friction is far too high")
+    figures = ehl_figures(table, tables["profiles"])
+    deliver(Result(problem.file.title, tables, figures, tuple(lines), tuple(notes), columns=TABLES), to)
 
 
 MOST_PRINTED = 12
@@ -87,18 +78,3 @@ def _line(row: Mapping[Any, Any]) -> str:
 def _unsolved(row: Mapping[Any, Any]) -> str:
     numbers = f"Moes' M {row['moes_load']:.3g}, L {row['moes_material']:.3g}, {row['hertz_pressure_GPa']:.3g} GPa"
     return f"  contact {row['contact']}: {row['status']}: the steps did not end ({numbers})"
-
-
-def _draw(title: str, table: pd.DataFrame, profiles: pd.DataFrame, folder: Path, formats: tuple[str, ...]) -> None:
-    """One figure a contact, and one of all where there are several."""
-    from mixedlub.report.ehl import contact_figure, drawn, summary_figure
-    from mixedlub.report.style import save_all
-
-    numbers = drawn(table)
-    made = {
-        f"contact_{number}": contact_figure(title, table.iloc[number - 1], profiles[profiles["contact"] == number])
-        for number in numbers
-    }
-    if len(table) > 1:
-        made["contacts"] = summary_figure(title, table)
-    save_all(made.items(), folder, formats)

@@ -7,16 +7,19 @@ from typing import Annotated, Any
 
 import typer
 
-from mixedlub.commands.console import busy, echo, input_errors_from, note, output_folder, print_findings
-from mixedlub.commands.figure_options import Formats, chosen_formats
-from mixedlub.running.atomic import writing
+from mixedlub.commands.console import busy, echo, input_errors_from, print_findings
+from mixedlub.commands.deliver import How, deliver, delivers
+from mixedlub.running.origin import origin_of_file
+from mixedlub.schema.result import Result
 from profiles.errors import InputError
 
 NAME = "friction-laws"
 EXAMPLE = "mixedlub friction-laws schlenk"
 
 
+@delivers(NAME)
 def command(
+    how: How,
     law: Annotated[str | None, typer.Argument(metavar="NAME", help="One law; a table of all when left out.")] = None,
     study: Annotated[
         Path | None,
@@ -40,10 +43,6 @@ def command(
         Path | None,
         typer.Option(metavar="FILE.toml", help="Coefficients of laws that need them: a table for each, by its name."),
     ] = None,
-    out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Folder for the results; default out/friction-laws/NAME.")
-    ] = None,
-    format_: Formats = "svg",
 ) -> None:
     """The friction laws: a table, the page of one, or all of them side by side on the gears of a study.
 
@@ -56,14 +55,14 @@ def command(
     if study is None:
         from mixedlub.report.friction_pages import friction_text
 
-        if any(given is not None for given in (*condition.values(), pairing, coefficients, out)):
+        if any(given is not None for given in (*condition.values(), pairing, coefficients, how.out)):
             raise InputError("name the study to compare the laws on: --study FILE.toml", where="--study")
 
         echo(friction_text(law))
         return
     if law is not None:
         raise InputError("all laws are compared on a study; leave the name out", where="NAME", value=law)
-    _compare(study, condition, pairing, coefficients, out, format_)
+    _compare(study, condition, pairing, coefficients, how)
 
 
 def _compare(
@@ -71,44 +70,37 @@ def _compare(
     condition: dict[str, float | None],
     pairing: str | None,
     coefficients: Path | None,
-    out: Path | None,
-    format_: str,
+    how: How,
 ) -> None:
     from mixedlub.chain.documented import few
     from mixedlub.report.friction_figures import figures
-    from mixedlub.report.style import save
     from mixedlub.rig.surface import mean_assumed
     from mixedlub.schema.toml_file import read_toml
     from mixedlub.study import read_study
-    from mixedlub.study.friction_comparison import compared, mesh_table
+    from mixedlub.study.friction_comparison import TABLES, compared, mesh_table
 
-    formats = chosen_formats(format_)
     with input_errors_from(str(study)):
         read = read_study(study)
         given: dict[str, Any] = {} if coefficients is None else _of_files(read_toml(coefficients), coefficients.parent)
         comparison = compared(read, given, pairing=pairing, **condition)
-    folder = output_folder(out, NAME, read.name)
+    to = how.open(read.name, origin_of_file(study, condition, pairing, given), TABLES, "study")
     print_findings(dict.fromkeys((*read.notes, *mean_assumed(read.surfaces.values()))))
-    for name, lacking in comparison.left_out.items():
-        note(f"{name} is left out: give {few(lacking)} in a file for --coefficients")
+    notes = [
+        f"{name} is left out: give {few(lacking)} in a file for --coefficients"
+        for name, lacking in comparison.left_out.items()
+    ]
     if read.file.effects:
-        note("the effects of the study are left out of the comparison")
-    with writing(folder) as aside, busy("computing"):
+        notes.append("the effects of the study are left out of the comparison")
+    with busy("computing"):
         tables = {
             "along_path": comparison.along_path(),
             "over_slide_roll_ratio": comparison.over_ratio(),
             "mesh": mesh_table(read, comparison.coefficients),
         }
-        for name, table in tables.items():
-            table.to_csv(aside / f"{name}.csv", index=False, float_format="%.9g")
         here = mesh_table(comparison.every, comparison.coefficients)
-        drawn = list(figures(comparison, tables["along_path"], tables["over_slide_roll_ratio"], here))
-        for one in drawn:
-            for form in formats:
-                save(one.figure, aside / f"{one.name}.{form}")
-        captions = "\n\n".join(f"{one.name}\n{one.caption}" for one in drawn)
-        (aside / "captions.txt").write_text(captions + "\n", encoding="utf-8")
-    echo(f"along_path.csv, over_slide_roll_ratio.csv, mesh.csv and figures in {folder}")
+    drawn, captions = figures(comparison, tables["along_path"], tables["over_slide_roll_ratio"], here)
+    result = Result(read.file.title, tables, drawn, (), tuple(notes), columns=TABLES, captions=captions)
+    deliver(result, to, written=f"along_path.csv, over_slide_roll_ratio.csv, mesh.csv and figures in {to.folder}")
 
 
 def _of_files(given: dict[str, Any], folder: Path) -> dict[str, Any]:

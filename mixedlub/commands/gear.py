@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated, Any
 
 import typer
 
-from mixedlub.commands.console import busy, echo, input_errors_from, note, output_folder
-from mixedlub.commands.figure_options import FiguresOrTables, Formats, chosen_formats
-from mixedlub.running.atomic import writing
-
-if TYPE_CHECKING:
-    import pandas as pd
-
-    from mixedlub.gear.analysis import ToothContact
+from mixedlub.commands.console import busy, input_errors_from
+from mixedlub.commands.deliver import How, deliver, delivers
+from mixedlub.running.origin import origin_of_file
+from mixedlub.schema.result import Result
 
 NAME = "gear"
 EXAMPLE = "mixedlub new gear --out my_gears\nmixedlub gear my_gears/gear.toml"
@@ -22,13 +19,9 @@ MOST_PRINTED = 8
 """Most torques that are printed."""
 
 
+@delivers(NAME)
 def command(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Gear pair, its load sharing, torques.")],
-    out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Folder for the results; default out/gear/NAME.")
-    ] = None,
-    figures: FiguresOrTables = True,
-    format_: Formats = "svg",
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Gear pair, its load sharing, torques.")], how: How
 ) -> None:
     """Load distribution, transmission error and loss factors of gears.
 
@@ -36,47 +29,34 @@ def command(
     reads), line_loads.csv, transmission_error.csv, loss_factors.csv, geometry.csv and figures.
     """
     from mixedlub.gear import iso_stiffness
-    from mixedlub.gear.analysis import table as tables
     from mixedlub.gear.analysis import tooth_contact
     from mixedlub.gear.analysis.file import read_problem
+    from mixedlub.gear.analysis.table import TABLES, tables
+    from mixedlub.report.gear import gear_figures
     from mixedlub.schema.findings import collected
 
-    formats = chosen_formats(format_)
     with input_errors_from(str(file)):
         problem = read_problem(file)
+        to = how.open(file.stem, origin_of_file(file), TABLES)
         with busy("solving"):
             found = tooth_contact(problem.pair, problem.sharing, problem.torque, problem.conditions)
         given, pair = problem.file.iso_6336, problem.pair
         loads = given.application_factor * found.torque / pair.reference_radius[0] / pair.face_width
-        with collected() as notes:
+        with collected() as findings:
             iso = [iso_stiffness(pair, load, blank_factor=given.blank_factor) for load in loads]
-    for text in dict.fromkeys(str(one) for one in (*notes, *problem.sharing.check(pair))):
-        note(text)
-    folder = output_folder(out, NAME, file.stem)
-    made = {
-        "summary": tables.summary_table(found, iso),
-        "load_share": tables.load_share_table(found),
-        "line_loads": tables.line_load_table(found),
-        "transmission_error": tables.transmission_table(found),
-        "loss_factors": tables.loss_factor_table(found),
-        "geometry": tables.geometry_table(pair),
-    }
-    with writing(folder) as aside:
-        for name, table in made.items():
-            if len(table):
-                table.to_csv(aside / f"{name}.csv", index=False, lineterminator="\n", float_format="%.8g")
-        if figures:
-            _draw(problem.file.title, found, made, aside, formats)
+    notes = [str(one) for one in (*findings, *problem.sharing.check(pair))]
     if found.distribution is None:
-        note('rigid teeth or a table: no transmission error and no stiffness; model = "ldp" has them')
-    for row in made["summary"].head(MOST_PRINTED).to_dict("records"):
-        echo(_line({str(name): float(value) for name, value in row.items()}))
+        notes.append('rigid teeth or a table: no transmission error and no stiffness; model = "ldp" has them')
     if any(found.beyond_path > 0.0):
-        note(f"edges of tips carry up to {100 * found.beyond_path.max():.2g} % of the load beyond the path of contact")
-    echo(f"results in {folder / 'summary.csv'}")
+        beyond = 100 * found.beyond_path.max()
+        notes.append(f"edges of tips carry up to {beyond:.2g} % of the load beyond the path of contact")
+    made = tables(found, iso)
+    lines = tuple(map(_line, made["summary"].head(MOST_PRINTED).to_dict("records")))
+    figures = gear_figures(problem.file.title, found, made)
+    deliver(Result(problem.file.title, made, figures, lines, tuple(dict.fromkeys(notes)), columns=TABLES), to)
 
 
-def _line(row: dict[str, float]) -> str:
+def _line(row: Mapping[Any, Any]) -> str:
     error = row.get("peak_to_peak_transmission_error_um")
     elastic = "" if error is None else f", transmission error {error:.3g} um peak to peak"
     return (
@@ -84,17 +64,3 @@ def _line(row: dict[str, float]) -> str:
         f"{row['largest_line_load_N_mm']:.4g} N/mm and pressure {row['largest_hertz_pressure_MPa']:.4g} MPa, face load "
         f"factor {row['face_load_factor']:.3f}{elastic}"
     )
-
-
-def _draw(
-    title: str, found: ToothContact, made: dict[str, pd.DataFrame], folder: Path, formats: tuple[str, ...]
-) -> None:
-    from mixedlub.report.gear import distribution_figure, loss_factor_figure, pattern_figure
-    from mixedlub.report.style import save_all
-
-    drawn = {
-        "load_distribution": distribution_figure(title, found, made["transmission_error"]),
-        "contact_pattern": pattern_figure(title, found),
-        "loss_factors": loss_factor_figure(title, made["loss_factors"]),
-    }
-    save_all(drawn.items(), folder, formats)

@@ -7,10 +7,11 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.console import echo, input_errors_from, note, output_folder, print_findings
-from mixedlub.commands.figure_options import FiguresOrTables, Formats, chosen_formats
-from mixedlub.commands.study import Scheduler, progress_bar
-from mixedlub.running.atomic import clear_parts, writing
+from mixedlub.commands.console import input_errors_from, print_findings, progress_bar
+from mixedlub.commands.deliver import How, deliver, delivers
+from mixedlub.commands.study import Scheduler
+from mixedlub.running.origin import origin_of_file
+from mixedlub.schema.result import Result
 from profiles.errors import InputError
 
 NAME = "law-errors"
@@ -18,7 +19,9 @@ EXAMPLE = "mixedlub law-errors"
 RIGS, SEED = 10, 1
 
 
+@delivers(NAME)
 def command(
+    how: How,
     oil: Annotated[
         list[str] | None,
         typer.Argument(metavar="[OIL]...", help="Oils by name, or their files: solve; left out: kept solutions."),
@@ -32,11 +35,6 @@ def command(
     seed: Annotated[
         int | None, typer.Option(metavar="NUMBER", min=0, help=f"Choice of the rigs; default {SEED}.")
     ] = None,
-    out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Folder for the results; default out/law-errors/NAME.")
-    ] = None,
-    figures: FiguresOrTables = True,
-    format_: Formats = "svg",
     scheduler: Scheduler = None,
 ) -> None:
     """How far the laws of film, heat and friction of line contacts are from full solutions.
@@ -46,39 +44,30 @@ def command(
     run resumes when it is started again.
     """
     from mixedlub.ehl.solve import Way
-    from mixedlub.report.law_errors import figures as drawn
-    from mixedlub.report.law_errors import fit_lines, law_lines
-    from mixedlub.report.style import save_all
+    from mixedlub.report.law_errors import figures, fit_lines, law_lines
     from mixedlub.schema.findings import collected
     from mixedlub.solutions import fits, kept, ratios
+    from mixedlub.solutions.result_columns import LAW_ERRORS
 
-    formats = chosen_formats(format_)
     if oil and solutions is not None:
         raise InputError("are solved already; leave the oils out", where="--solutions", value=str(solutions))
     for option, value in {"--rigs": rigs, "--seed": seed, "--scheduler": scheduler}.items():
         if value is not None and not oil:
             raise InputError("is for oils that are solved; name them", where=option, value=value)
-    with collected() as notes, input_errors_from(NAME):
+    with collected() as findings, input_errors_from(NAME):
         given = None if oil else kept.read_solutions(kept.KEPT if solutions is None else solutions)
         of = kept.oils(oil or [] if given is None else list(given["oil"].unique()))
-    print_findings(notes)
-    folder = output_folder(out, NAME, "_".join(Path(name).stem for name in oil or ["kept"]))
+    print_findings(findings)
+    name, source = "_".join(Path(name).stem for name in oil or ["kept"]), Path("_".join(oil or ["kept solutions"]))
+    to = how.open(name, origin_of_file(solutions or source, rigs, seed), LAW_ERRORS, "set of solutions")
     if given is None:
         with progress_bar("solving") as bar:
-            given = kept.solve_rigs(of, rigs or RIGS, SEED if seed is None else seed, Way(folder, scheduler, bar))
-    table = given
-    laws, fitted = ratios.by_contact(table, of)
+            given = kept.solve_rigs(of, rigs or RIGS, SEED if seed is None else seed, Way(to.folder, scheduler, bar))
+    laws, fitted = ratios.by_contact(given, of)
     by_law, by_rig = ratios.summary(laws), fits.of_rigs(fitted)
-    tables = {"solutions": table, "ratios": laws, "fitted": fitted, "laws": by_law, "rigs": by_rig}
-    tables["fits"] = fits.summary(by_rig, fitted)
-    with writing(folder) as aside:
-        for name, content in tables.items():
-            (aside / f"{name}.csv").write_text(kept.as_csv(content), encoding="utf-8", newline="\n")
-        if figures:
-            save_all(drawn(laws, fitted), aside, formats)
-    clear_parts(folder)
-    echo(kept.solved_line(table))
-    echo("\n".join(["", *law_lines(by_law, ratios.ALL), "", *fit_lines(tables["fits"], ratios.ALL)]))
-    if not len(by_rig):
-        note("no rig has enough solved contacts for exponents of its own")
-    echo(f"\nresults in {folder / 'laws.csv'}, fits.csv, rigs.csv, ratios.csv, fitted.csv and solutions.csv")
+    tables = {"laws": by_law, "fits": fits.summary(by_rig, fitted), "rigs": by_rig}
+    tables |= {"ratios": laws, "fitted": fitted, "solutions": given}
+    lines = (kept.solved_line(given), "", *law_lines(by_law, ratios.ALL), "", *fit_lines(tables["fits"], ratios.ALL))
+    notes = () if len(by_rig) else ("no rig has enough solved contacts for exponents of its own",)
+    result = Result("Laws and full solutions", tables, figures(laws, fitted), lines, notes, columns=LAW_ERRORS)
+    deliver(result, to, written=f"\nresults in {to.folder / ', '.join(f'{name}.csv' for name in tables)}")

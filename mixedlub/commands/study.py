@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from mixedlub.commands.console import busy, echo, input_errors_from, named_folder, note, output_folder, print_findings
-from mixedlub.commands.figure_options import Formats, chosen_formats
-from mixedlub.running.atomic import clear_parts, writing
+from mixedlub.commands.console import echo, input_errors_from, note, print_findings, progress_bar, resumed
+from mixedlub.commands.deliver import How, deliver, delivers
+from mixedlub.schema.findings import Finding
+from mixedlub.schema.result import Result
 from profiles.errors import InputError
 
 NAME = "study"
@@ -23,22 +23,15 @@ Scheduler = Annotated[
 ]
 
 
+@delivers(NAME)
 def command(
     file: Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study: gears, oil, surfaces, conditions.")],
-    out: Annotated[
-        Path | None,
-        typer.Option(metavar="DIR", parser=named_folder, help="Folder for the results; default out/study/NAME."),
-    ] = None,
-    figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Figures and the HTML page, or not.")] = True,
-    format_: Formats = "svg",
+    how: How,
     paper_figures: Annotated[
         bool, typer.Option("--paper-figures", help="Also figures for print, one column wide, losses normalised.")
     ] = False,
     curves: Annotated[
         bool, typer.Option("--curves", help="Also a table of every point of the path of contact at every condition.")
-    ] = False,
-    replace: Annotated[
-        bool, typer.Option("--replace", help="Replace the result of another study, or other files, in that folder.")
     ] = False,
     scheduler: Scheduler = None,
 ) -> None:
@@ -49,95 +42,56 @@ def command(
     An interrupted run resumes when it is started again with the same inputs.
     """
     from mixedlub.study import checkpoint, counted, factors, read_study, run_study
-    from mixedlub.study.curves import is_of_another_study, refuse_too_many, write_curves
-    from mixedlub.study.fits import write_fits
-    from mixedlub.study.record import CURVES, FITS, WRITTEN, running, study_origin, write_record
+    from mixedlub.study.columns import every_column
+    from mixedlub.study.curves import curve_columns, curve_table, refuse_too_many
+    from mixedlub.study.fits import fit_columns, fits_table
+    from mixedlub.study.record import TABLES, WRITTEN, record_files, running, study_origin
     from mixedlub.study.validity import out_of_range
 
-    formats = chosen_formats(format_)
-    if paper_figures and not figures:
+    if paper_figures and not how.figures:
         raise InputError("draws figures, which --no-figures leaves out; leave one of them out", where="--paper-figures")
     with input_errors_from(str(file)):
         study = read_study(file)
         given = file.read_bytes()
     if curves:
         refuse_too_many(study)
-    folder = output_folder(out, NAME, study.name, knows_own=True)
-    with running(folder, study):
-        earlier = "" if replace else study_origin(study, file).check_folder(folder, WRITTEN, "study")
-        if earlier:
-            note(earlier)
+    to = how.open(study.name, study_origin(study, file), TABLES, "study", *WRITTEN)
+    with running(to.folder, study):
         print_findings(study.notes)
         echo(f"{study.file.title}: {' x '.join(factors(study))} = {counted(study.conditions, 'condition')}")
         start = time.perf_counter()
         with progress_bar("computing") as bar:
             results = run_study(
                 study,
-                parts=checkpoint.parts_folder(folder, study.plan),
+                parts=checkpoint.parts_folder(to.folder, study.plan),
                 scheduler=scheduler,
                 progress=resumed(bar),
             )
         echo(f"computed in {time.perf_counter() - start:.2f} s")
-        warnings = out_of_range(results)
-        print_findings(warnings)
-        with writing(folder) as aside:
-            results.write(aside / "results.csv", aside / "results.parquet")
-            write_fits(results, aside / FITS)
-            if curves:
-                write_curves(study, *(aside / name for name in CURVES))
-            if figures:
-                from mixedlub.report.page import write_page
+        print_findings(out_of_range(results))
+        tables = {"results": results.long_table(), "fits": fits_table(results)}
+        columns = {"results": every_column(study.plan.losing), "fits": fit_columns(), "curves": curve_columns()}
+        if curves:
+            tables["curves"] = curve_table(study)
+        result = Result(
+            study.file.title, tables, {}, files=record_files(to.folder, study, file, given), columns=columns
+        )
 
-                text = given.decode("utf-8-sig")
-                with busy("drawing figures") as doing:
-                    known = results.findings
-                    of_heights = write_page(
-                        results, aside, known, given=text, formats=formats, as_in_paper=paper_figures, doing=doing
-                    )
-                print_findings(of_heights)
-            write_record(aside, folder, study, file, given)
-        clear_parts(folder)
-    page = folder / "index.html"
-    if not figures and page.exists() and checkpoint.fingerprint(study.plan) not in page.read_text("utf-8", "replace"):
-        note(f"{page} and the figures beside it are of another study; without --no-figures they are drawn anew")
-    if not curves and is_of_another_study(folder / CURVES[-1], study):
-        note(f"{folder / CURVES[-1]} is of another state of the study; with --curves it is written anew")
-    echo(f"results in {folder / 'results.csv'} and .parquet" + (f", page {page}" if figures else ""))
+        def page(aside: Path, doing: Callable[[str], None]) -> list[Finding]:
+            from mixedlub.report.page import write_page
 
+            text = given.decode("utf-8-sig")
+            return write_page(
+                *(results, aside, results.findings),
+                given=text,
+                formats=how.formats,
+                as_in_paper=paper_figures,
+                doing=doing,
+            )
 
-def resumed(progress: Callable[[int, int], None], parts: str = "blocks") -> Callable[[int, int], None]:
-    """The same progress callback, which first reports the parts that are kept from an earlier run."""
-    calls = 0
-
-    def counted(done: int, of: int) -> None:
-        nonlocal calls
-        calls += 1
-        if calls == 1 and done:
-            echo(f"{parts} kept from an earlier start: {done} of {of}; to compute: {of - done}")
-        progress(done, of)
-
-    return counted
-
-
-@contextmanager
-def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
-    """A progress bar on stderr for work of many blocks, in interactive terminals only."""
-    from rich.console import Console
-
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        yield lambda done, of: None
-        return
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
-    bar = Progress(
-        TextColumn(what),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TextColumn("blocks"),
-        TimeRemainingColumn(),
-        console=console,
-    )
-    with bar:
-        task = bar.add_task(what, total=None, visible=False)
-        yield lambda done, of: bar.update(task, completed=done, total=of, visible=of > 1)
+        shown = to.folder / "index.html"
+        of_other = shown.exists() and checkpoint.fingerprint(study.plan) not in shown.read_text("utf-8", "replace")
+        if of_other and not how.figures:
+            note(f"{shown} and the figures beside it are of another study; without --no-figures they are drawn anew")
+        written = f"results in {to.folder / 'results.csv'} and .parquet" + (f", page {shown}" if how.figures else "")
+        deliver(result, to, page=page, written=written)

@@ -1,4 +1,4 @@
-"""Tables of an efficiency, with units in the names of columns; tooth and gearbox efficiency have one each."""
+"""Tables of an efficiency: columns with unit, meaning and source; tooth and gearbox efficiency have one each."""
 
 from __future__ import annotations
 
@@ -9,10 +9,90 @@ import pandas as pd
 
 from mixedlub.efficiency.gearbox import MESH, ORIGINS, Gearbox, Losses, Origin
 from mixedlub.efficiency.mesh_cycle import MeshCycle
+from mixedlub.schema.result import column, described, frame_of
 
 RPM = 30.0 / np.pi
 JOULES_PER_KWH = 3.6e6
 SECONDS_PER_HOUR = 3600.0
+TOOTH = "1 less the losses of the teeth, sliding and rolling, over input power; empty without torque"
+WHOLE = "1 less all losses over input power; empty without torque"
+AT = (
+    column(lambda f: f.torque, "torque_Nm", "torque of the input"),
+    column(lambda f: f.speed * RPM, "speed_rpm", "speed of the input"),
+)
+MAP = (
+    *AT,
+    column(lambda f: f.input_power, "input_power_W", "torque times angular speed of the input"),
+    column(lambda f: f.total(), "total_loss_W", "sum of all losses"),
+    column(lambda f: f.output_power, "output_power_W", "input power less all losses"),
+    column(lambda f: f.output_power / f.speed * f.gearbox.ratio, "output_torque_Nm", "torque of the output"),
+    column(lambda f: f.speed / f.gearbox.ratio * RPM, "output_speed_rpm", "speed of the output"),
+    column(lambda f: 100.0 * f.efficiency(MESH), "tooth_efficiency_percent", TOOTH),
+    column(lambda f: 100.0 * f.efficiency(), "gearbox_efficiency_percent", WHOLE),
+)
+LOSS_MAP = (
+    column(lambda f: f.speed * RPM, "input_speed_rpm", "speed of the input"),
+    column(lambda f: f.torque, "input_torque_Nm", "torque of the input"),
+    column(lambda f: f.total() / f.speed, "torque_loss_Nm", "all losses as a torque of the input"),
+    column(lambda f: f.total(), "power_loss_W", "all losses"),
+)
+CYCLE = (
+    column(lambda f: f.stage.name, "stage", "stage", "text"),
+    column(lambda f: f.stage.driving, "driving", "wheel that drives", "text"),
+    column(lambda f: f.phase, "base_pitches", "turn of the mesh", "base pitches"),
+    column(lambda f: np.degrees(f.roll_angle), "roll_angle_deg", "turn of the pinion"),
+    column(lambda f: f.sliding, "sliding_loss_W", "loss by sliding, all tooth pairs"),
+    column(lambda f: f.rolling, "rolling_loss_W", "loss by rolling, all tooth pairs"),
+    column(lambda f: 100.0 * f.efficiency, "tooth_efficiency_percent", "1 less both losses over input power"),
+    column(lambda f: f.friction, "mesh_friction", "friction coefficient of the mesh"),
+    column(lambda f: f.friction_force, "friction_force_N", "friction force on the pinion"),
+)
+TOOTH_PAIR = (
+    column(lambda f: f.stage.name, "stage", "stage", "text"),
+    column(lambda f: np.degrees(f.pair.roll_angle), "roll_angle_deg", "roll angle of the pinion"),
+    column(lambda f: f.pair.normal_force, "normal_force_N", "normal force of a tooth pair"),
+    column(lambda f: f.pair.friction_force, "friction_force_N", "friction force of a tooth pair on the pinion"),
+)
+_MAP = (*MAP, *described(ORIGIN_loss_W="part of total_loss_W by its origin", validity="text: valid, or what is not"))
+_DURATION = {"duration_h": "duration of the operating points"}
+TABLES = {
+    "map": _MAP,
+    "loss_map": LOSS_MAP,
+    "losses": (*AT, *described(total_loss_W="sum of the others", STAGE_loss_W="loss of a mesh or part of a stage")),
+    "breakdown": described(
+        stage="text: stage, or all",
+        origin="text: origin of the loss, or total",
+        part="text: name of the part",
+        law="text: law of the loss",
+        loss_W="loss at the condition of [cycle]",
+        share_percent="part of the total loss",
+    ),
+    "stages": described(
+        stage="text: stage",
+        driving="text: wheel that drives",
+        driven="text: wheel that is driven",
+        ratio="speed of the input over that of the output",
+        input_torque_Nm="torque that comes in",
+        input_speed_rpm="speed that comes in",
+        input_power_W="power that comes in",
+        stage_loss_W="all losses of the stage",
+        tooth_efficiency_percent=TOOTH,
+        stage_efficiency_percent="1 less all losses of the stage over power that comes in",
+    ),
+    "mesh_cycle": CYCLE,
+    "tooth_pair": TOOTH_PAIR,
+    "duty": (*_MAP, *described(**_DURATION, input_energy_kWh="energy taken in", loss_energy_kWh="energy lost")),
+    "duty_summary": described(
+        **_DURATION,
+        input_energy_kWh="energy taken in",
+        loss_energy_kWh="energy lost",
+        output_energy_kWh="energy delivered",
+        mean_tooth_efficiency_percent="1 less energy lost by the teeth over energy taken in",
+        mean_gearbox_efficiency_percent="1 less energy lost over energy taken in",
+        ORIGIN_energy_kWh="part of the energy lost by its origin",
+    ),
+}
+"""Columns of the tables of `mixedlub efficiency`."""
 
 
 def present(losses: Losses) -> list[str]:
@@ -23,40 +103,19 @@ def present(losses: Losses) -> list[str]:
 
 def map_table(losses: Losses) -> pd.DataFrame:
     """One row a condition: power, total loss, both efficiencies (empty without torque), loss by origin, validity."""
-    output_speed = losses.speed / losses.gearbox.ratio
-    columns: dict[str, object] = {
-        "torque_Nm": losses.torque,
-        "speed_rpm": losses.speed * RPM,
-        "input_power_W": losses.input_power,
-        "total_loss_W": losses.total(),
-        "output_power_W": losses.output_power,
-        "output_torque_Nm": losses.output_power / output_speed,
-        "output_speed_rpm": output_speed * RPM,
-        "tooth_efficiency_percent": 100.0 * losses.efficiency(MESH),
-        "gearbox_efficiency_percent": 100.0 * losses.efficiency(),
-        **{f"{origin}_loss_W": losses.total(origins=(origin,)) for origin in present(losses)},
-        "validity": list(losses.validity),
-    }
-    return pd.DataFrame(columns)
+    origins = {f"{origin}_loss_W": losses.total(origins=(origin,)) for origin in present(losses)}
+    return frame_of(losses, MAP).assign(**origins, validity=list(losses.validity))
 
 
 def part_table(losses: Losses) -> pd.DataFrame:
     """One row a condition, one column a part: the loss of each mesh and of each part of every stage."""
     parts = {_column(origin): value for origin, value in losses.by_origin.items()}
-    head = {"torque_Nm": losses.torque, "speed_rpm": losses.speed * RPM, "total_loss_W": losses.total()}
-    return pd.DataFrame({**head, **parts})
+    return frame_of(losses, AT).assign(total_loss_W=losses.total(), **parts)
 
 
 def loss_map(losses: Losses) -> pd.DataFrame:
     """The loss map for drive-cycle tools: torque and power lost at each speed and torque of the input."""
-    return pd.DataFrame(
-        {
-            "input_speed_rpm": losses.speed * RPM,
-            "input_torque_Nm": losses.torque,
-            "torque_loss_Nm": losses.total() / losses.speed,
-            "power_loss_W": losses.total(),
-        }
-    ).sort_values(["input_speed_rpm", "input_torque_Nm"], ignore_index=True)
+    return frame_of(losses, LOSS_MAP).sort_values(["input_speed_rpm", "input_torque_Nm"], ignore_index=True)
 
 
 def breakdown_table(at: Losses) -> pd.DataFrame:
@@ -69,7 +128,7 @@ def breakdown_table(at: Losses) -> pd.DataFrame:
         law = laws.get((stage, origin, part), "")
         rows.append((stage, origin, part, law or _friction(at.gearbox, stage), float(value[0])))
     rows.append(("all", "total", "", "", total))
-    table = pd.DataFrame(rows, columns=["stage", "origin", "part", "law", "loss_W"])
+    table = pd.DataFrame(rows, columns=[one.name for one in TABLES["breakdown"][:-1]])
     table["share_percent"] = 100.0 * table["loss_W"] / total
     return table
 
@@ -99,43 +158,12 @@ def stage_table(at: Losses) -> pd.DataFrame:
 
 def cycle_table(cycles: Sequence[MeshCycle]) -> pd.DataFrame:
     """Loss, tooth efficiency, friction of the mesh and friction force of each stage over one base pitch."""
-    return pd.concat(
-        [
-            pd.DataFrame(
-                {
-                    "stage": one.stage.name,
-                    "driving": one.stage.driving,
-                    "base_pitches": one.phase,
-                    "roll_angle_deg": np.degrees(one.roll_angle),
-                    "sliding_loss_W": one.sliding,
-                    "rolling_loss_W": one.rolling,
-                    "tooth_efficiency_percent": 100.0 * one.efficiency,
-                    "mesh_friction": one.friction,
-                    "friction_force_N": one.friction_force,
-                }
-            )
-            for one in cycles
-        ],
-        ignore_index=True,
-    )
+    return pd.concat([frame_of(one, CYCLE) for one in cycles], ignore_index=True)
 
 
 def tooth_table(cycles: Sequence[MeshCycle]) -> pd.DataFrame:
     """Forces of one tooth pair of each stage over its way through the mesh, friction on the pinion."""
-    return pd.concat(
-        [
-            pd.DataFrame(
-                {
-                    "stage": one.stage.name,
-                    "roll_angle_deg": np.degrees(one.pair.roll_angle),
-                    "normal_force_N": one.pair.normal_force,
-                    "friction_force_N": one.pair.friction_force,
-                }
-            )
-            for one in cycles
-        ],
-        ignore_index=True,
-    )
+    return pd.concat([frame_of(one, TOOTH_PAIR) for one in cycles], ignore_index=True)
 
 
 def duty_table(losses: Losses, hours: np.ndarray) -> pd.DataFrame:

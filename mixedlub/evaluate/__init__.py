@@ -33,6 +33,13 @@ EVALUATIONS = _ByName()
 """Every evaluation by its name, those of other packages included (entry points ``mixedlub.evaluations``)."""
 
 
+def evaluation(name: str) -> Evaluation:
+    """An evaluation by its name."""
+    if name not in EVALUATIONS:
+        raise InputError(f"no such evaluation; {nearest(name, EVALUATIONS)}", where="METHOD", value=name)
+    return EVALUATIONS[name]
+
+
 def evaluate(name: str, path: Path | str) -> Evaluated:
     """What an evaluation finds in the recordings that its file describes.
 
@@ -41,8 +48,6 @@ def evaluate(name: str, path: Path | str) -> Evaluated:
     ...
     profiles.errors.InputError: METHOD: 'calorimetry': no such evaluation; nearest known: 'calorimetric'
     """
-    if name not in EVALUATIONS:
-        raise InputError(f"no such evaluation; {nearest(name, EVALUATIONS)}", where="METHOD", value=name)
-    one, path = EVALUATIONS[name], Path(path)
+    one, path = evaluation(name), Path(path)
     with keys_of(one.file, path):
         return one.run(parse(one.file, read_toml(path), str(path)), path)

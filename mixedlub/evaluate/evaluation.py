@@ -1,4 +1,4 @@
-"""Description of an evaluation and of what it finds: tables, panels of figures, a case folder for the diagnosis."""
+"""Description of an evaluation, and the case folder for the diagnosis."""
 
 from __future__ import annotations
 
@@ -7,64 +7,19 @@ import re
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from mixedlub.schema.result import CaseDraft, Curve, Panel, Result, ResultColumn
 from mixedlub.schema.section import Section
 from mixedlub.schema.table import Column
 from mixedlub.schema.toml_file import read_toml
 from profiles.errors import InputError, nearest
 
-if TYPE_CHECKING:
-    import pandas as pd
-
-
-@dataclass(frozen=True)
-class Curve:
-    """Readings (``marker``) or a line of a figure; ``low`` and ``high`` are the ends of its 90 % interval."""
-
-    x: np.ndarray
-    y: np.ndarray
-    label: str = ""
-    marker: bool = False
-    low: np.ndarray | None = None
-    high: np.ndarray | None = None
-    group: int = 0
-
-
-@dataclass(frozen=True)
-class Panel:
-    """One panel of a figure: the words of its axes with units, and its curves; those of one group share a colour."""
-
-    across: str
-    up: str
-    curves: tuple[Curve, ...]
-
-
-@dataclass(frozen=True)
-class CaseDraft:
-    """A case folder to be written: tables of ``system.toml``, columns of ``recordings.csv``, files that it names."""
-
-    system: Mapping[str, Any]
-    columns: Mapping[str, np.ndarray]
-    attachments: Mapping[str, bytes] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class Evaluated:
-    """What was found: tables by the name of their file, figures by theirs, lines for the user, and a case.
-
-    ``files`` are further texts by the name of their file, as friction laws for studies.
-    """
-
-    title: str
-    tables: Mapping[str, pd.DataFrame]
-    figures: Mapping[str, tuple[Panel, ...]]
-    lines: tuple[str, ...]
-    notes: tuple[str, ...] = ()
-    case: CaseDraft | None = None
-    files: Mapping[str, str] = field(default_factory=dict)
+__all__ = ["CaseDraft", "Curve", "Evaluated", "Evaluation", "Panel"]
+Evaluated = Result
+"""Findings of an evaluation."""
 
 
 @dataclass(frozen=True)
@@ -72,8 +27,8 @@ class Evaluation:
     """A way from recordings to friction.
 
     ``file`` is the class of its TOML file, ``columns`` are those of each table that it names; ``run(file, path)``
-    evaluates a file that was read from ``path``. ``example`` has the sections of its template; the tables that these
-    name are in ``templates/NAME`` beside the module of ``run``.
+    evaluates a file that was read from ``path``. ``results`` describes the tables of results. ``example`` has the
+    sections of its template; the tables that these name are in ``templates/NAME`` beside the module of ``run``.
     """
 
     name: str
@@ -83,6 +38,7 @@ class Evaluation:
     columns: Mapping[str, tuple[Column, ...]]
     run: Callable[[Any, Path], Evaluated]
     example: Mapping[str, Any]
+    results: Mapping[str, tuple[ResultColumn, ...]] = field(default_factory=dict)
 
     @property
     def folder(self) -> Path:

@@ -6,86 +6,66 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mixedlub.report.style import SMALL, panels, styled
+from mixedlub.schema.result import Curve, Drawing, Panel, curve
 
 if TYPE_CHECKING:
     import pandas as pd
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 VIEW = (-1.6, 1.3)
 """Part of the contact that is drawn (half widths)."""
 MOST_DRAWN = 24
 """Most contacts that have a figure of their own; of more, evenly spaced ones."""
+ALONG = "place along the flow over the half width (-)"
 
 
-def drawn(table: pd.DataFrame) -> list[int]:
-    """Numbers of the contacts that have a figure: all with a solution, or evenly spaced ones of many."""
-    solved = table.loc[table["status"] == "converged", "contact"].to_list()
-    picked = np.unique(np.linspace(0, len(solved) - 1, min(len(solved), MOST_DRAWN)).round().astype(int))
-    return [solved[place] for place in picked] if solved else []
+def ehl_figures(contacts: pd.DataFrame, profiles: pd.DataFrame) -> dict[str, Drawing]:
+    """A figure of each contact with a solution, or of evenly spaced ones of many, and one of all."""
+    solved = np.flatnonzero(contacts["status"] == "converged")
+    picked = np.unique(np.linspace(0, solved.size - 1, min(solved.size, MOST_DRAWN)).round().astype(int))
+    drawn: dict[str, Drawing] = {}
+    for row in solved[picked]:
+        contact = contacts.iloc[row]
+        drawn[f"contact_{contact['contact']}"] = _contact(contact, profiles[profiles["contact"] == contact["contact"]])
+    if len(contacts) > 1 and len(profiles):
+        drawn["contacts"] = _summary(contacts)
+    return drawn
 
 
-def contact_figure(title: str, contact: pd.Series, profile: pd.DataFrame) -> Figure:
+def _contact(contact: pd.Series, profile: pd.DataFrame) -> tuple[Panel, ...]:
     """Pressure, film, temperatures and shear stress of one contact, against the place in half widths."""
-    place = profile["position_mm"].to_numpy() / contact["half_width_mm"]
-    seen = (place >= VIEW[0]) & (place <= VIEW[1])
-    with styled():
-        figure, axes, _ = panels(4, 2, sharey=False)
-        pressure, film, temperature, shear = axes
-        hertz = contact["hertz_pressure_GPa"] * np.sqrt(np.maximum(1.0 - place**2, 0.0))
-        pressure.plot(place[seen], hertz[seen], color="0.6", ls="--", label="Hertz")
-        pressure.plot(place[seen], profile["pressure_GPa"][seen], color="C0", label="film")
-        _finish(pressure, "pressure (GPa)", legend=True)
-        film.plot(place[seen], profile["film_um"][seen], color="C0")
-        inner = profile["film_um"][np.abs(place) < 1.0]
-        film.set_ylim(0.0, 2.5 * float(inner.max()))
-        _finish(film, "film thickness (µm)")
-        for name, label in (
-            ("film", "middle of the film"),
-            ("first_wall", "first wall"),
-            ("second_wall", "second wall"),
-        ):
-            temperature.plot(place[seen], profile[f"{name}_temperature_C"][seen], label=label)
-        _finish(temperature, "temperature (°C)", legend=True)
-        shear.plot(place[seen], profile["shear_stress_MPa"][seen], color="C0")
-        _finish(shear, "shear stress (MPa)")
-        for axis in axes:
-            axis.set_xlabel("place along the flow over the half width (-)")
-        figure.suptitle(f"{title}: contact {contact['contact']}, {_conditions(contact)}", fontsize=SMALL)
-    return figure
-
-
-def summary_figure(title: str, table: pd.DataFrame) -> Figure:
-    """Films, friction and temperatures of all contacts, by their place on a path or their number."""
-    on_path = "position_mm" in table
-    place = table["position_mm"] if on_path else table["contact"]
-    with styled():
-        figure, axes, _ = panels(4, 2, sharey=False)
-        for name in ("central_film_um", "minimum_film_um"):
-            axes[0].plot(place, table[name], marker="o", label=name.partition("_film")[0])
-        _finish(axes[0], "film thickness (µm)", legend=True)
-        axes[1].plot(place, table["friction_coefficient"], marker="o")
-        _finish(axes[1], "friction coefficient (-)")
-        axes[2].plot(place, table["hertz_pressure_GPa"], marker="o")
-        _finish(axes[2], "Hertz pressure (GPa)")
-        for name in ("film", "first_wall", "second_wall"):
-            axes[3].plot(place, table[f"largest_{name}_temperature_C"], marker="o", label=name.replace("_", " "))
-        _finish(axes[3], "largest temperature (°C)", legend=True)
-        for axis in axes:
-            axis.set_xlabel("position on the path of contact (mm)" if on_path else "contact (number)")
-        figure.suptitle(title, fontsize=SMALL)
-    return figure
-
-
-def _finish(axes: Axes, label: str, *, legend: bool = False) -> None:
-    axes.set_ylabel(label)
-    if legend:
-        axes.legend()
-
-
-def _conditions(contact: pd.Series) -> str:
+    profile = profile.assign(place=profile["position_mm"] / contact["half_width_mm"])
+    profile = profile[profile["place"].between(*VIEW)]
+    place = profile["place"].to_numpy()
+    hertz = contact["hertz_pressure_GPa"] * np.sqrt(np.maximum(1.0 - place**2, 0.0))
+    pressures = (Curve(place, hertz, "Hertz", style="--", group=1), curve(profile, "place", "pressure_GPa", "film"))
+    walls = ("middle of the film", "first wall", "second wall")
+    names = (f"{name}_temperature_C" for name in ("film", "first_wall", "second_wall"))
+    temperatures = (curve(profile, "place", n, w, group=g) for g, (n, w) in enumerate(zip(names, walls, strict=True)))
+    most = 2.5 * float(profile["film_um"][np.abs(place) < 1.0].max())
     return (
-        f"{contact['line_load_N_mm']:.4g} N/mm, {contact['entrainment_speed_m_s']:.3g} m/s, "
-        f"slide-roll ratio {contact['slide_roll_ratio']:.3g}, oil at {contact['oil_temperature_C']:.3g} °C"
+        Panel(ALONG, "pressure (GPa)", pressures),
+        Panel(ALONG, "film thickness (µm)", (curve(profile, "place", "film_um"),), from_zero=True, ceiling=most),
+        Panel(ALONG, "temperature (°C)", tuple(temperatures)),
+        Panel(ALONG, "shear stress (MPa)", (curve(profile, "place", "shear_stress_MPa"),)),
     )
+
+
+def _summary(table: pd.DataFrame) -> tuple[Panel, ...]:
+    """Films, friction, pressure and temperatures of all contacts, by their place on a path or their number."""
+    on_path = "position_mm" in table
+    place, words = (
+        ("position_mm", "position on the path of contact (mm)") if on_path else ("contact", "contact (number)")
+    )
+    shown = {
+        "film thickness (µm)": {"central_film_um": "central", "minimum_film_um": "minimum"},
+        "friction coefficient (-)": {"friction_coefficient": ""},
+        "Hertz pressure (GPa)": {"hertz_pressure_GPa": ""},
+        "largest temperature (°C)": {
+            f"largest_{name}_temperature_C": name.replace("_", " ") for name in ("film", "first_wall", "second_wall")
+        },
+    }
+    drawn = []
+    for up, names in shown.items():
+        lines = (curve(table, place, n, w, style="o-", group=g) for g, (n, w) in enumerate(names.items()))
+        drawn.append(Panel(words, up, tuple(lines)))
+    return tuple(drawn)

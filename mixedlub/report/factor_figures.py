@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mixedlub.report.figures import Drawn
-from mixedlub.report.style import SMALL, WIDTH, in_words, labelled, panels, styled
+from mixedlub.report.style import SMALL, WIDTH, in_words, labelled, panels
 from mixedlub.study.factor_tables import Decided
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from mixedlub.schema.result import Drawing
 
 MOST_NAMED = 18
 """Most characters of a name on an axis."""
@@ -24,31 +25,21 @@ MOST_PAIRS = 10
 ALONE, WITH_OTHERS = "#21618c", "#a9cce3"
 
 
-def factor_figures(decided: Decided) -> Iterator[Drawn]:
-    """The indices as bars, and the main effects."""
+def factor_figures(decided: Decided) -> tuple[dict[str, Drawing], dict[str, str]]:
+    """The indices as bars, interactions and main effects, and their captions."""
     what = in_words(decided.response)
-    with styled():
-        yield Drawn(
-            "indices",
-            f"Share of the variance of {what} that each factor decides alone (dark) and together with others (light)."
-            + (
-                " Bars of error: 95 % intervals of the resampled runs."
-                if decided.indices.total_ends is not None
-                else ""
-            ),
-            _indices(decided),
-        )
-        if decided.interactions:
-            yield Drawn(
-                "interactions",
-                f"Share of the variance of {what} that two factors decide only together, the largest {MOST_PAIRS}.",
-                _interactions(decided),
-            )
-        yield Drawn(
-            "main_effects",
-            f"Mean of {what} at the levels of each factor, over all else. The dashed line is the mean of all.",
-            _main_effects(decided),
-        )
+    ends = "" if decided.indices.total_ends is None else " Bars of error: 95 % intervals of the resampled runs."
+    captions = {
+        "indices": f"Share of the variance of {what} that each factor decides alone (dark) and together with others "
+        f"(light).{ends}",
+        "interactions": f"Share of the variance of {what} that two factors decide only together, the largest "
+        f"{MOST_PAIRS}.",
+        "main_effects": f"Mean of {what} at the levels of each factor, over all else. The dashed line is the mean of "
+        "all.",
+    }
+    drawn = {"indices": _indices, "interactions": _interactions, "main_effects": _main_effects}
+    names = [name for name in drawn if name != "interactions" or decided.interactions]
+    return {name: partial(drawn[name], decided) for name in names}, {name: captions[name] for name in names}
 
 
 def _indices(decided: Decided) -> Figure:

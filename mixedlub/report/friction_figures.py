@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mixedlub.chain.friction_law import PLACES
 from mixedlub.friction import BASE, catalogue
-from mixedlub.report.figures import Drawn
 from mixedlub.report.plots import some
-from mixedlub.report.style import SMALL, WIDTH, legend_above, panels, shades, styled
+from mixedlub.report.style import SMALL, WIDTH, legend_above, panels, shades
 from mixedlub.study.friction_comparison import DIVERGES, OUTSIDE, VALID, Comparison
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from mixedlub.schema.result import Drawing
 
 COLOURS = {"contact": "#1f5fa8", "mesh": "#b3541e"}
 GREY, REFERENCE = "0.72", "0.45"
@@ -26,28 +27,28 @@ ROW_HEIGHT = 0.22
 """Height of the row of a law (inches)."""
 
 
-def figures(comparison: Comparison, path: pd.DataFrame, ratio: pd.DataFrame, mesh: pd.DataFrame) -> Iterator[Drawn]:
-    """The three figures of a comparison with their captions; of the mesh at its own condition."""
+def figures(
+    comparison: Comparison, path: pd.DataFrame, ratio: pd.DataFrame, mesh: pd.DataFrame
+) -> tuple[dict[str, Drawing], dict[str, str]]:
+    """The three figures of a comparison and their captions; of the mesh at its own condition."""
     at = _condition(comparison)
     grey = "Grey: outside the range of the source. Dotted: the base model. Friction that diverges is not drawn."
-    with styled():
-        yield Drawn(
-            "friction_along_path",
-            f"Friction coefficient along the path of contact, {at}. {grey}",
-            _small_multiples(path, "roll_angle_deg", "pinion roll angle (°)"),
+    drawn: dict[str, Drawing] = {
+        "friction_along_path": partial(_small_multiples, path, "roll_angle_deg", "pinion roll angle (°)"),
+        "friction_over_ratio": partial(_small_multiples, ratio, "slide_roll_ratio", "slide-to-roll ratio (-)"),
+    }
+    captions = {
+        "friction_along_path": f"Friction coefficient along the path of contact, {at}. {grey}",
+        "friction_over_ratio": "Friction coefficient over the slide-to-roll ratio in the contact of the pitch point, "
+        f"{at}. {grey}",
+    }
+    if len(mesh):
+        drawn["friction_of_mesh"] = partial(_of_mesh, mesh)
+        captions["friction_of_mesh"] = (
+            f"Mean friction of the mesh by law and pairing, {at.partition(', ')[2]}. Grey and hollow: outside the "
+            "range of the source at a point of the path."
         )
-        yield Drawn(
-            "friction_over_ratio",
-            f"Friction coefficient over the slide-to-roll ratio in the contact of the pitch point, {at}. {grey}",
-            _small_multiples(ratio, "slide_roll_ratio", "slide-to-roll ratio (-)"),
-        )
-        if len(mesh):
-            yield Drawn(
-                "friction_of_mesh",
-                f"Mean friction of the mesh by law and pairing, {at.partition(', ')[2]}. Grey and hollow: outside the "
-                "range of the source at a point of the path.",
-                _of_mesh(mesh),
-            )
+    return drawn, captions
 
 
 def _condition(comparison: Comparison) -> str:

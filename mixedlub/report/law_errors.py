@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from mixedlub.report.style import panels, styled
+from mixedlub.report.style import panels
 from mixedlub.solutions.ratios import FILM_RATIOS, TRACTION_RATIOS
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from mixedlub.schema.result import Drawing
 
 FILM_LAWS = ("dowson_toyoda_central", "dowson_higginson_minimum", "moes", "inlet_shear_heating (Gupta)")
 FRICTION_LAWS = ("base model, isothermal", "base model and film_heating", "crook", "xu_kahraman")
@@ -45,16 +47,21 @@ _TICKS = {
 """Ticks of the colours, by their ends."""
 
 
-def figures(laws: pd.DataFrame, fitted: pd.DataFrame) -> Iterator[tuple[str, Figure]]:
+def figures(laws: pd.DataFrame, fitted: pd.DataFrame) -> dict[str, Drawing]:
     """Maps of laws of film and friction, and of the ratios that are fitted, over the conditions that they depend on."""
     regime = ("moes_load", "Moes' load parameter M (-)"), ("moes_material", "Moes' material parameter L (-)")
     sliding = ("hertz_pressure_GPa", "Hertz pressure (GPa)"), ("slide_roll_ratio", "slide-to-roll ratio (-)")
-    yield "film_laws", _maps(laws, _there(laws, FILM_LAWS), regime, NARROW, "film by the law over the solved one (-)")
-    label = "friction by the law over the solved one (-)"
-    yield "friction_laws", _maps(laws, _there(laws, FRICTION_LAWS), sliding, WIDE, label)
     titles = "solved film over that of its law (-)", "traction over that at\nlargest pressure (-)"
-    yield "film_ratios", _maps(fitted, FILM_RATIOS, regime, NARROW, titles[0])
-    yield "traction_ratios", _maps(fitted, TRACTION_RATIOS, sliding, TRACTION, titles[1])
+    drawn = {
+        "film_laws": (laws, _there(laws, FILM_LAWS), regime, NARROW, "film by the law over the solved one (-)"),
+        "friction_laws": (
+            *(laws, _there(laws, FRICTION_LAWS), sliding, WIDE),
+            "friction by the law over the solved one (-)",
+        ),
+        "film_ratios": (fitted, FILM_RATIOS, regime, NARROW, titles[0]),
+        "traction_ratios": (fitted, TRACTION_RATIOS, sliding, TRACTION, titles[1]),
+    }
+    return {name: partial(_maps, *given) for name, given in drawn.items()}
 
 
 def _there(table: pd.DataFrame, names: tuple[str, ...]) -> tuple[str, ...]:
@@ -70,21 +77,20 @@ def _maps(
 ) -> Figure:
     """A panel a name: a mark a contact, its colour the ratio."""
     (across, x_label), (up, y_label) = axes_of
-    with styled():
-        figure, axes, columns = panels(len(names), 2, height=2.4)
-        for place, (panel, name) in enumerate(zip(axes, names, strict=True)):
-            marks = panel.scatter(
-                table[across], table[up], c=table[name], s=5.0, cmap="coolwarm", norm=LogNorm(*ends), linewidths=0.0
-            )
-            panel.set_title(TITLES.get(name, name))
-            _scale(panel, across, up)
-            if place + columns >= len(names):
-                panel.set_xlabel(x_label)
-            if place % columns == 0:
-                panel.set_ylabel(y_label)
-        bar = figure.colorbar(marks, ax=axes, label=label, extend="both", shrink=0.7)
-        bar.set_ticks(_TICKS[ends], labels=[f"{tick:g}" for tick in _TICKS[ends]])
-        bar.minorticks_off()
+    figure, axes, columns = panels(len(names), 2, height=2.4)
+    for place, (panel, name) in enumerate(zip(axes, names, strict=True)):
+        marks = panel.scatter(
+            table[across], table[up], c=table[name], s=5.0, cmap="coolwarm", norm=LogNorm(*ends), linewidths=0.0
+        )
+        panel.set_title(TITLES.get(name, name))
+        _scale(panel, across, up)
+        if place + columns >= len(names):
+            panel.set_xlabel(x_label)
+        if place % columns == 0:
+            panel.set_ylabel(y_label)
+    bar = figure.colorbar(marks, ax=axes, label=label, extend="both", shrink=0.7)
+    bar.set_ticks(_TICKS[ends], labels=[f"{tick:g}" for tick in _TICKS[ends]])
+    bar.minorticks_off()
     return figure
 
 

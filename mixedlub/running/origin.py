@@ -64,6 +64,8 @@ class Origin:
 
     def _identity(self, folder: Path) -> dict[str, str]:
         """The input with its path relative to the result, so that both may be moved together."""
+        if not self.source.exists():  # the name of something that the package has
+            return {"source": self.source.as_posix(), "fingerprint": self.fingerprint}
         try:
             source = Path(os.path.relpath(self.source.resolve(), folder.resolve()))
         except ValueError:  # on another drive
@@ -79,6 +81,12 @@ def origin_of(source: Path, names: Collection[str]) -> Origin:
         content = path.read_bytes() if path.is_file() else b""
         digest.update(f"{name}:{len(content)}:".encode() + content)
     return Origin(source, digest.hexdigest())
+
+
+def origin_of_file(source: Path, *choices: object) -> Origin:
+    """A file as the origin of a result, or the name of something that the package has, with what was chosen besides."""
+    content = source.read_bytes() if source.is_file() else b""
+    return Origin(source, hashlib.sha256(content + repr(choices).encode()).hexdigest())
 
 
 @cache

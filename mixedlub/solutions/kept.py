@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from io import StringIO
 from pathlib import Path
 
 import numpy as np
@@ -51,12 +50,10 @@ def solve_rigs(of: dict[str, Oil], count: int, seed: int, way: Way) -> pd.DataFr
     tables = []
     for place, (name, oil) in enumerate(of.items()):
         rigs = draw(oil, count, seed + place)
-        table = conditions(rigs.contacts)
+        table = conditions(rigs.contacts).map(lambda value: float(f"{value:.4g}"))
         table.insert(0, "oil", name)
         table.insert(1, "rig", rigs.number)
-        # what is kept is what is solved
-        rounded = contacts_of(pd.read_csv(StringIO(as_csv(table))))
-        tables.append(table.assign(**solve_both(oil, rounded, way)))
+        tables.append(table.assign(**solve_both(oil, contacts_of(table), way)))
     return pd.concat(tables, ignore_index=True)
 
 
@@ -92,11 +89,6 @@ def contacts_of(table: pd.DataFrame) -> Contacts:
     return contacts(
         radius=radius, line_load=load, speed=speed, sliding_speed=speed * ratio, oil_temperature=celsius + ZERO_CELSIUS
     )
-
-
-def as_csv(table: pd.DataFrame) -> str:
-    """The table as text, numbers of four digits."""
-    return str(table.to_csv(index=False, lineterminator="\n", float_format="%.4g"))
 
 
 def read_solutions(path: Path) -> pd.DataFrame:

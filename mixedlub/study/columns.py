@@ -6,109 +6,78 @@ This is the one description of them: files, pages and labelled arrays take their
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
-
-import numpy as np
+from dataclasses import replace
 
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.chain.ranges import GRADES, VALID
 from mixedlub.laws.oil import ZERO_CELSIUS
+from mixedlub.schema.result import ResultColumn, described
 from mixedlub.schema.section import table
-from mixedlub.schema.units import unit_of
 from mixedlub.study.bands import HIGH, LOW
 from mixedlub.study.bands import column as band_column
 from mixedlub.study.schema import StudyFile
 
 VALIDITY = "validity"
-"""Column that says of a condition where it is outside the range of the model."""
+"""ResultColumn that says of a condition where it is outside the range of the model."""
 
 
-@dataclass(frozen=True)
-class Column:
-    """A column of a table: the output it is of, its name with unit, and its meaning.
-
-    Its values are ``factor`` times the output in SI, less ``zero``.
-    """
-
-    output: str
-    name: str
-    meaning: str
-    factor: float = 1.0
-    zero: float = 0.0
-    given_unit: str = ""
-
-    @property
-    def unit(self) -> str:
-        """Its unit, ``-`` for a number without one."""
-        return self.given_unit or unit_of(self.name) or "-"
-
-    def of(self, values: np.ndarray) -> np.ndarray:
-        """The values of the column from those of the output in SI.
-
-        >>> FURTHER[-1].of(np.array([373.15])).tolist()
-        [100.0]
-        """
-        scaled = values * self.factor
-        return scaled - self.zero if self.zero else scaled
-
-
-def _of_glossary(output: str, name: str, factor: float = 1.0) -> Column:
-    return Column(output, name, GLOSSARY[output].meaning, factor)
+def _of_glossary(output: str, name: str, factor: float = 1.0) -> ResultColumn:
+    return ResultColumn(output, name, GLOSSARY[output].meaning, factor)
 
 
 FIRST = (
-    Column(
+    ResultColumn(
         "power_loss",
         "power_loss_W",
         "total power loss, mean over a mesh cycle: the mesh and every loss that is switched on as an effect",
     ),
-    Column(
+    ResultColumn(
         "mean_friction",
         "mean_friction",
         "friction coefficient of the mesh: mean over the path weighted by load times sliding speed",
     ),
-    Column(
+    ResultColumn(
         "area_ratio",
         "boundary_area_ratio",
         "boundary area ratio, plain mean over the path of contact as far as it carries load",
     ),
-    Column(
+    ResultColumn(
         "film_thickness",
         "film_thickness_um",
         "film thickness, plain mean over the path of contact as far as it carries load",
         1e6,
     ),
-    Column("film_parameter", "film_parameter", "mean film thickness over composite roughness"),
+    ResultColumn("film_parameter", "film_parameter", "mean film thickness over composite roughness"),
     _of_glossary("composite_roughness", "composite_roughness_um", 1e6),
     _of_glossary("mesh_loss", "mesh_loss_W"),
     _of_glossary("rolling_loss", "rolling_loss_W"),
-    Column(
+    ResultColumn(
         "other_loss",
         "other_loss_W",
         "power lost outside the mesh by effects that are switched on: bearings, seals, churning, windage",
     ),
-    Column("hertz_pressure", "hertz_pressure_MPa", "largest Hertz pressure of the path of contact", 1e-6),
-    Column(
+    ResultColumn("hertz_pressure", "hertz_pressure_MPa", "largest Hertz pressure of the path of contact", 1e-6),
+    ResultColumn(
         "asperity_load_ratio",
         "asperity_load_ratio",
         "pressure that asperities would carry over mean Hertz pressure, the largest of the places that carry at "
         "least a tenth of the largest line load; above 1 the film would have to give way, which it does with "
         'balance = "johnson_greenwood_poon"',
     ),
-    Column(
+    ResultColumn(
         "asperity_real_pressure",
         "asperity_real_pressure_MPa",
         "pressure of the asperities over their real contact area, where they carry most among the places that "
         "carry at least a tenth of the largest line load; 0 where none touch",
         1e-6,
     ),
-    Column(
+    ResultColumn(
         "mean_asperity_load_share",
         "mean_asperity_load_share",
         "share of the load that asperities carry, plain mean over the path of contact as far as it carries load; only "
         "with a balance of load",
     ),
-    Column(
+    ResultColumn(
         "film_over_unbalanced",
         "film_over_unbalanced_film",
         "film thickness over that of a film which carries the whole load, plain mean over the path of contact as far "
@@ -117,81 +86,83 @@ FIRST = (
 )
 """Columns before that of the validity, in their order; some need an option."""
 FURTHER = (
-    Column("normalised_loss", "normalised_loss", "power loss over the largest of the study"),
-    Column("input_power", "input_power_W", "power that the pinion takes in: its torque times its angular speed"),
-    Column("efficiency", "efficiency", "1 less total power loss over input power"),
-    Column(
+    ResultColumn("normalised_loss", "normalised_loss", "power loss over the largest of the study"),
+    ResultColumn("input_power", "input_power_W", "power that the pinion takes in: its torque times its angular speed"),
+    ResultColumn("efficiency", "efficiency", "1 less total power loss over input power"),
+    ResultColumn(
         "tooth_efficiency", "tooth_efficiency", "1 less the losses of the mesh, sliding and rolling, over input power"
     ),
-    Column(
+    ResultColumn(
         "loss_factor",
         "loss_factor_H_V",
         "tooth loss factor of rigid teeth that share the load equally, after Ohlendorf; spur gears of a contact ratio "
         "up to 2",
     ),
-    Column(
+    ResultColumn(
         "load_loss_factor",
         "loss_factor_H_VL",
         "tooth loss factor of the load sharing at hand: load times sliding speed, mean over a mesh cycle, over input "
         "power; spur gears",
     ),
-    Column(
+    ResultColumn(
         "plain_mean_friction",
         "plain_mean_friction",
         "friction coefficient, plain mean over the path of contact as far as it carries load: the average of Hong, "
         "Aneshansley and Talbot",
     ),
-    Column(
+    ResultColumn(
         "least_film",
         "minimum_film_thickness_um",
         "least film thickness of the path of contact as far as it carries load",
         1e6,
     ),
-    Column("least_film_parameter", "minimum_film_parameter", "that least film thickness over composite roughness"),
-    Column(
+    ResultColumn(
+        "least_film_parameter", "minimum_film_parameter", "that least film thickness over composite roughness"
+    ),
+    ResultColumn(
         "asperity_load_share",
         "asperity_load_share",
         "share of the load that asperities carry, at most 1, the largest of the places that carry at least a tenth "
         "of the largest line load",
     ),
-    Column(
+    ResultColumn(
         "flash_temperature",
         "flash_temperature_K",
         "largest rise of the flanks above their bulk by sliding, after Blok, anywhere in the contact and on the path",
     ),
-    Column(
+    ResultColumn(
         "flash_safety",
         "scuffing_safety_flash",
         "rise to the scuffing temperature over the largest rise of the contact, both above the oil, as in "
         "ISO/TS 6336-20 with friction and flash of this model; only with scuffing_temperature_C",
     ),
-    Column(
+    ResultColumn(
         "integral_temperature",
         "integral_temperature_C",
         "bulk temperature and flash_weight times the mean flash temperature along the path, as in ISO/TS 6336-21 with "
         "those of this model",
         zero=ZERO_CELSIUS,
     ),
-    Column(
+    ResultColumn(
         "integral_safety",
         "scuffing_safety_integral",
         "integral scuffing temperature over the integral temperature, in degC; only with "
         "integral_scuffing_temperature_C",
     ),
-    Column(
+    ResultColumn(
         "least_specific_film",
         "micropitting_film_ratio",
         "least film of ISO/TS 6336-22 on the path over the mean roughness Ra of both surfaces, with pressure, bulk and "
         "flash temperature of this model; only with permissible_film_ratio",
     ),
-    Column("micropitting_safety", "micropitting_safety", "that ratio over the permissible one"),
-    Column(
+    ResultColumn("micropitting_safety", "micropitting_safety", "that ratio over the permissible one"),
+    ResultColumn(
         "bulk_temperature",
         "bulk_temperature_C",
         "temperature of the teeth; only with the effect bulk_temperature",
         zero=ZERO_CELSIUS,
     ),
-    Column(
+    ResultColumn(
         "contact_temperature",
         "contact_temperature_C",
         "largest temperature of the flanks: that rise above their bulk, which without the effect bulk_temperature is "
@@ -202,7 +173,7 @@ FURTHER = (
 """Columns behind that of the validity; those that a study cannot have are left out."""
 
 
-def ends_of_bands(columns: Iterable[Column]) -> list[Column]:
+def ends_of_bands(columns: Iterable[ResultColumn]) -> list[ResultColumn]:
     """Columns of both ends of the bands of some columns.
 
     >>> [column.name for column in ends_of_bands(FIRST[:1])]
@@ -224,7 +195,7 @@ CHECKS = {
     "share_lacking": "least load share that the film law is for over the film's own, where asperities carry 5 %",
 }
 """Meaning of the checks of a computation that no table has."""
-OF_VALIDITY = Column(
+OF_VALIDITY = ResultColumn(
     VALIDITY,
     VALIDITY,
     f"'{VALID}', or how far the condition is outside the model's range ({', '.join(GRADES[1:])}) and, behind "
@@ -242,22 +213,22 @@ def loss_of(effect: str) -> str:
     return f"{effect}_loss"
 
 
-def loss_columns(effects: Iterable[str]) -> list[Column]:
+def loss_columns(effects: Iterable[str]) -> list[ResultColumn]:
     """Columns of the power lost by effects, in their order."""
     return [
-        Column(loss_of(name), f"{loss_of(name)}_W", f"power lost by the effect {name}, part of other_loss_W")
+        ResultColumn(loss_of(name), f"{loss_of(name)}_W", f"power lost by the effect {name}, part of other_loss_W")
         for name in effects
     ]
 
 
-def condition_columns() -> list[Column]:
+def condition_columns() -> list[ResultColumn]:
     """The columns of the pairing and the conditions."""
     levels = {key.name: key.meaning for key in table(StudyFile, "conditions").fields}
-    sides = [Column("", f"{side}_surface", f"surface of the {side}", given_unit="text") for side in ("pinion", "gear")]
-    return [*sides, *(Column("", name, meaning) for name, meaning in levels.items())]
+    sides = described(**{f"{side}_surface": f"text: surface of the {side}" for side in ("pinion", "gear")})
+    return [*sides, *(ResultColumn("", name, meaning) for name, meaning in levels.items())]
 
 
-def every_column(effects: Sequence[str] = (), *, bands: bool = True) -> list[Column]:
+def every_column(effects: Sequence[str] = (), *, bands: bool = True) -> list[ResultColumn]:
     """Every column that a table of results may have, in their order."""
     if not bands:
         return [*condition_columns(), *FIRST, OF_VALIDITY, *FURTHER, *loss_columns(effects)]

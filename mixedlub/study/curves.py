@@ -3,31 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.schema.result import ResultColumn
+from mixedlub.schema.table_files import LongTable
 from mixedlub.study import checkpoint
-from mixedlub.study.columns import Column, condition_columns
+from mixedlub.study.columns import condition_columns
 from mixedlub.study.pieces import taken
 from mixedlub.study.plan import Study
 from mixedlub.study.results import about_table
-from mixedlub.study.table_files import write_tables
 from profiles.errors import InputError
 
 if TYPE_CHECKING:
     import pyarrow as pa
 
 
-def _of(output: str, name: str = "", factor: float = 1.0) -> Column:
-    return Column(output, name or output, GLOSSARY[output].meaning, factor)
+def _of(output: str, name: str = "", factor: float = 1.0) -> ResultColumn:
+    return ResultColumn(output, name or output, GLOSSARY[output].meaning, factor)
 
 
 PLACES = (
-    Column("roll_angle", "roll_angle_deg", GLOSSARY["roll_angle"].meaning, float(np.degrees(1.0))),
-    Column("face_position", "face_position_mm", "place across the face, from its front", 1e3),
+    ResultColumn("roll_angle", "roll_angle_deg", GLOSSARY["roll_angle"].meaning, float(np.degrees(1.0))),
+    ResultColumn("face_position", "face_position_mm", "place across the face, from its front", 1e3),
 )
 """Columns of the place of a contact point."""
 ALONG_PATH = (
@@ -52,11 +52,13 @@ ALONG_PATH = (
 """Columns of the quantities of a contact point."""
 OF_POINTS = tuple(c.output for c in ALONG_PATH)
 MOST_ROWS = 5_000_000
-"""Most rows of curves that are written: 1.5 GB of CSV."""
+"""Most rows of curves that are written."""
+MOST_CSV_ROWS = 50_000
+"""Most rows of curves that are written as CSV beside Parquet: 15 MB."""
 _ROWS = 100_000
 
 
-def curve_columns() -> list[Column]:
+def curve_columns() -> list[ResultColumn]:
     """Every column of the curves, in their order."""
     return [*condition_columns(), *PLACES, *ALONG_PATH]
 
@@ -95,24 +97,13 @@ def refuse_too_many(study: Study) -> None:
         raise InputError(rule, where="--curves")
 
 
-def write_curves(study: Study, csv: Path, parquet: Path) -> None:
-    """The curves of a study as CSV and Parquet."""
-    write_tables(
-        curves(study),
-        curve_columns(),
+def curve_table(study: Study) -> LongTable:
+    """The curves of a study with their metadata, to be written: as CSV too where they are short."""
+    return LongTable(
+        lambda: curves(study),
+        tuple(c.name for c in curve_columns()),
         about_table(study),
-        csv=csv,
-        parquet=parquet,
-        quoted=study.needs_quotes,
-        repeating=[c.name for c in condition_columns()],
+        study.needs_quotes,
+        tuple(c.name for c in condition_columns()),
+        csv=study.conditions * study.plan.points <= MOST_CSV_ROWS,
     )
-
-
-def is_of_another_study(parquet: Path, study: Study) -> bool:
-    """Whether curves from an earlier run are of another study, or of an earlier state of this one."""
-    import pyarrow.parquet as pq
-
-    if not parquet.is_file():
-        return False
-    about = pq.read_schema(parquet).metadata or {}
-    return about.get(b"fingerprint", b"").decode() != checkpoint.fingerprint(study.plan)

@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from mixedlub.schema.result import ResultColumn
 from mixedlub.schema.units import unit_of
 from mixedlub.study import sensitivity
-from mixedlub.study.columns import VALID, VALIDITY, Column
+from mixedlub.study.columns import VALID, VALIDITY, every_column
 from mixedlub.study.factor_file import Factors
 from mixedlub.study.factor_parts import in_chunks
 from mixedlub.study.factor_runs import Experiment, Run, axes, mean_responses, refuse_too_many, response_of
@@ -20,35 +21,31 @@ from mixedlub.study.sensitivity import Indices, MainEffect
 
 Progress = Callable[[int, int], None]
 OF_INDICES = (
-    Column("factor", "factor", "what is varied", given_unit="text"),
-    Column("first", "first_order", "share of the variance of the response that the factor decides alone"),
-    Column("first_low", "first_order_low95", "lower end of its 95 % interval; random designs"),
-    Column("first_high", "first_order_high95", "upper end of its 95 % interval; random designs"),
-    Column("total", "total", "share of the variance in which the factor takes part, alone or with others"),
-    Column("total_low", "total_low95", "lower end of its 95 % interval; random designs"),
-    Column("total_high", "total_high95", "upper end of its 95 % interval; random designs"),
+    ResultColumn("factor", "factor", "what is varied", given_unit="text"),
+    ResultColumn("first", "first_order", "share of the variance of the response that the factor decides alone"),
+    ResultColumn("first_low", "first_order_low95", "lower end of its 95 % interval; random designs"),
+    ResultColumn("first_high", "first_order_high95", "upper end of its 95 % interval; random designs"),
+    ResultColumn("total", "total", "share of the variance in which the factor takes part, alone or with others"),
+    ResultColumn("total_low", "total_low95", "lower end of its 95 % interval; random designs"),
+    ResultColumn("total_high", "total_high95", "upper end of its 95 % interval; random designs"),
 )
 """Columns of ``indices.csv``: Sobol' indices."""
 OF_INTERACTIONS = (
-    Column("factor_1", "factor_1", "one of two factors", given_unit="text"),
-    Column("factor_2", "factor_2", "the other one", given_unit="text"),
-    Column("share", "share", "share of the variance that both decide only together"),
+    ResultColumn("factor_1", "factor_1", "one of two factors", given_unit="text"),
+    ResultColumn("factor_2", "factor_2", "the other one", given_unit="text"),
+    ResultColumn("share", "share", "share of the variance that both decide only together"),
 )
 """Columns of ``interactions.csv``, of a full factorial."""
 OF_MAIN_EFFECTS = (
-    Column("factor", "factor", "what is varied", given_unit="text"),
-    Column("level", "level", "its level, or the middle of a range of it", given_unit="that of the factor"),
-    Column("mean", "mean", "mean response at that level", given_unit="that of the response"),
-    Column("difference", "difference", "that less the mean of all runs", given_unit="that of the response"),
-    Column("count", "count", "responses behind it"),
+    ResultColumn("factor", "factor", "what is varied", given_unit="text"),
+    ResultColumn("level", "level", "its level, or the middle of a range of it", given_unit="that of the factor"),
+    ResultColumn("mean", "mean", "mean response at that level", given_unit="that of the response"),
+    ResultColumn("difference", "difference", "that less the mean of all runs", given_unit="that of the response"),
+    ResultColumn("count", "count", "responses behind it"),
 )
 """Columns of ``main_effects.csv``."""
-
-
-WRITTEN = ("results.csv", "runs.csv", "indices.csv", "interactions.csv", "main_effects.csv")
-"""Tables of a result."""
 OUTSIDE = "share_out_of_range"
-"""Column of ``runs.csv``: share of the conditions of a run that are outside the model's range."""
+"""ResultColumn of ``runs.csv``: share of the conditions of a run that are outside the model's range."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,17 +81,32 @@ class Decided:
         return found
 
 
-def factor_columns(experiment: Experiment) -> list[Column]:
+def factor_columns(experiment: Experiment) -> list[ResultColumn]:
     """The columns of the levels of the factors."""
     fields = Factors.model_fields
     return [
-        Column("", _column(name), fields[name].description or "", given_unit=unit_of(name) or "text")
+        ResultColumn("", _column(name), fields[name].description or "", given_unit=unit_of(name) or "text")
         for name in experiment.levels
     ]
 
 
+def table_columns(experiment: Experiment) -> dict[str, list[ResultColumn]]:
+    """The columns of every table of an experiment."""
+    levels, design = factor_columns(experiment), experiment.file.design
+    response = ResultColumn("", design.response, "mean response of the run")
+    runs = [
+        ResultColumn("", "run", "number of the run"),
+        *levels,
+        response,
+        ResultColumn("", OUTSIDE, "share of its conditions that are outside the model's range"),
+    ]
+    rows = {"runs": runs} if design.random else {"results": [*levels, *every_column(["EFFECT"])]}
+    others = {"indices": OF_INDICES, "interactions": OF_INTERACTIONS, "main_effects": OF_MAIN_EFFECTS}
+    return {**rows, **{name: list(columns) for name, columns in others.items()}}
+
+
 def _column(name: str) -> str:
-    """Column of a factor; the prefix tells it from a condition of the same name.
+    """ResultColumn of a factor; the prefix tells it from a condition of the same name.
 
     >>> _column("oil")
     'factor_oil'
@@ -170,9 +182,3 @@ def _decided(
 def share_out_of_range(table: pd.DataFrame) -> float:
     """Share of the conditions of all runs that are outside the model's range."""
     return float(table[OUTSIDE].mean() if OUTSIDE in table else (table[VALIDITY] != VALID).mean())
-
-
-def write_tables(tables: Mapping[str, pd.DataFrame], folder: Path) -> None:
-    """The tables as CSV, by the name of their file."""
-    for name, table in tables.items():
-        table.to_csv(folder / f"{name}.csv", index=False)

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mixedlub.schema.result import ResultColumn
+from mixedlub.schema.table_files import LongTable
 from mixedlub.study import checkpoint
-from mixedlub.study.columns import Column, condition_columns
-from mixedlub.study.results import LEVELS, Results
+from mixedlub.study.columns import condition_columns
+from mixedlub.study.results import LEVELS, Results, about_table
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -20,14 +21,14 @@ FEWEST_PAIRINGS = 3
 _LINE = "straight line of power_loss_W over composite_roughness_um, by least squares through all pairings"
 _OVER_AREA = "straight line of power_loss_W over boundary_area_ratio, in the same way"
 OF_FITS = (
-    Column("pairings", "pairings", "number of pairings that the lines go through, those out of range among them"),
-    Column("slope", "slope_W_per_um", f"slope of the {_LINE}", 1e-6, given_unit="W/µm"),
-    Column("intercept", "intercept_W", "power loss of that line at no roughness"),
-    Column("square", "r_squared", "coefficient of determination R² of that line"),
-    Column("residual", "residual_W", "root mean square of the differences from that line"),
-    Column("area_slope", "area_ratio_slope_W", f"slope of the {_OVER_AREA}"),
-    Column("area_intercept", "area_ratio_intercept_W", "power loss of that line where no asperities touch"),
-    Column("area_square", "area_ratio_r_squared", "coefficient of determination R² of that line"),
+    ResultColumn("pairings", "pairings", "number of pairings that the lines go through, those out of range among them"),
+    ResultColumn("slope", "slope_W_per_um", f"slope of the {_LINE}", 1e-6, given_unit="W/µm"),
+    ResultColumn("intercept", "intercept_W", "power loss of that line at no roughness"),
+    ResultColumn("square", "r_squared", "coefficient of determination R² of that line"),
+    ResultColumn("residual", "residual_W", "root mean square of the differences from that line"),
+    ResultColumn("area_slope", "area_ratio_slope_W", f"slope of the {_OVER_AREA}"),
+    ResultColumn("area_intercept", "area_ratio_intercept_W", "power loss of that line where no asperities touch"),
+    ResultColumn("area_square", "area_ratio_r_squared", "coefficient of determination R² of that line"),
 )
 """Columns of the fits, behind those of the conditions."""
 
@@ -69,7 +70,7 @@ def can_be_fitted(results: Results) -> bool:
     return len(np.unique(roughness)) >= FEWEST_PAIRINGS
 
 
-def fit_columns() -> list[Column]:
+def fit_columns() -> list[ResultColumn]:
     """Every column of the fits."""
     sides = ("pinion_surface", "gear_surface")
     return [*(c for c in condition_columns() if c.name not in sides), *OF_FITS]
@@ -92,8 +93,6 @@ def fits(results: Results) -> pa.Table:
     return pa.table({name: checkpoint.floats(column) for name, column in columns.items()}).slice(0, rows)
 
 
-def write_fits(results: Results, path: Path) -> None:
-    """The lines of a study as CSV."""
-    import pyarrow.csv as pc
-
-    pc.write_csv(fits(results), path, pc.WriteOptions(quoting_header="none"))
+def fits_table(results: Results) -> LongTable:
+    """The lines of a study, to be written."""
+    return LongTable(lambda: [fits(results)], tuple(c.name for c in fit_columns()), about_table(results.study))

@@ -14,7 +14,9 @@ from mixedlub.chain.friction_law import FrictionLaw
 from mixedlub.chain.model import Model
 from mixedlub.friction import BASE, catalogue, find
 from mixedlub.gear.mesh import Mesh, at_roll_angle
+from mixedlub.schema.result import described
 from mixedlub.schema.toml_file import parse
+from mixedlub.study.columns import every_column
 from mixedlub.study.friction_options import check_coefficients, check_oil
 from mixedlub.study.options import FURTHER, with_friction
 from mixedlub.study.plan import Study, condition_inputs, read_study, surface_inputs
@@ -38,6 +40,22 @@ COLUMNS = {
     "film_rise": ("crook_film_rise_K", 1.0),
 }
 """Columns of a contact point, and the factor from SI to their unit."""
+_LAW = "text: friction law"
+_AT_A_CONTACT = {
+    "slide_roll_ratio": "sliding speed over entrainment speed",
+    "sliding_speed_m_s": "speed of the pinion's flank less that of the gear's",
+    "entrainment_speed_m_s": "mean speed of both flanks",
+    "hertz_pressure_MPa": "largest Hertz pressure",
+    "crook_film_rise_K": "rise of the film's temperature after Crook",
+    "friction": "friction coefficient, empty where it diverges",
+    "validity": f"text: {VALID}, {OUTSIDE} or {DIVERGES}",
+}
+TABLES = {
+    "along_path": described(law=_LAW, roll_angle_deg="roll angle of the pinion", **_AT_A_CONTACT),
+    "over_slide_roll_ratio": described(law=_LAW, **_AT_A_CONTACT),
+    "mesh": (*described(law=_LAW), *every_column(bands=False)),
+}
+"""Columns of the tables of `mixedlub friction-laws --study`."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -32,6 +32,7 @@ from mixedlub.rig.rig import Rig
 from mixedlub.rig.surface import Surface, mean_assumed, mean_over_rms, paired
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, report
+from mixedlub.schema.table_files import escaped
 from mixedlub.study.bands import Group, groups
 from mixedlub.study.chosen_effects import chosen_effects
 from mixedlub.study.friction_options import (
@@ -201,8 +202,9 @@ class Study:
 
     @property
     def needs_quotes(self) -> bool:
-        """Whether a name of a surface needs quotes in a CSV file."""
-        return any(mark in name for both in self.pairings for name in both for mark in ',"\n\r')
+        """Whether a name of a surface needs quotes in a CSV file, or is taken as a formula."""
+        names = {name for both in self.pairings for name in both}
+        return any(escaped(name) != name or any(mark in name for mark in ',;"\n\r') for name in names)
 
     @property
     def conditions(self) -> int:

@@ -16,7 +16,7 @@ from mixedlub.rig.build import DEFAULT_BASE, ZERO_CELSIUS
 from mixedlub.rig.lubricant import LINEAR, Lubricant
 from mixedlub.rig.surface import Surface
 from mixedlub.running.atomic import is_alive
-from mixedlub.running.origin import Origin, as_left, is_same
+from mixedlub.running.origin import Origin, is_same
 from mixedlub.schema.oil_file import KNOWN
 from mixedlub.schema.section import Section
 from mixedlub.schema.surface_file import SURFACE_FILES, SurfaceSection
@@ -30,9 +30,10 @@ from roughness.mccool import nayak_parameter, summit_density, summit_radius
 
 SCHEMA = "mixedlub-study-result/1"
 GIVEN, RESOLVED = "study.toml", "resolved.json"
-FITS, CURVES = "fits.csv", ("curves.csv", "curves.parquet")
-WRITTEN = ("results.csv", "results.parquet", FITS, *CURVES, "index.html", GIVEN, RESOLVED)
-"""Files of a result outside the folder of figures."""
+TABLES = ("results", "fits", "curves")
+"""Tables of a result."""
+WRITTEN = ("index.html", GIVEN, RESOLVED)
+"""Other files of a result outside the folder of figures."""
 
 
 def resolved(study: Study) -> dict[str, Any]:
@@ -183,10 +184,8 @@ def _directions(surface: Surface) -> tuple[tuple[float, float | None], tuple[flo
     return (surface.m2, surface.m2_along), (surface.m4, surface.m4_along)
 
 
-def write_record(aside: Path, folder: Path, study: Study, file: Path, given: bytes) -> None:
-    """Write the study file as given and the record of the result; ``aside`` already holds the other files."""
-    if not is_same(folder / GIVEN, file):
-        (aside / GIVEN).write_bytes(given)
+def record_files(folder: Path, study: Study, file: Path, given: bytes) -> dict[str, str | bytes]:
+    """The study file as given, unless it lies in the folder of the result, and the record of the result."""
     record = {
         "schema": SCHEMA,
         "title": study.file.title,
@@ -195,8 +194,8 @@ def write_record(aside: Path, folder: Path, study: Study, file: Path, given: byt
         **resolved(study),
     }
     text = json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False)
-    (aside / RESOLVED).write_text(text + "\n", encoding="utf-8")
-    study_origin(study, file).write_record(aside, folder, as_left(folder))
+    copy = {} if is_same(folder / GIVEN, file) else {GIVEN: given}
+    return {**copy, RESOLVED: text + "\n"}
 
 
 def study_origin(study: Study, file: Path) -> Origin:

@@ -14,7 +14,9 @@ import numpy as np
 from mixedlub.chain.ranges import as_words
 from mixedlub.running.version import installed_version
 from mixedlub.schema.findings import Finding, as_texts, gravest_first, listed
+from mixedlub.schema.result import ResultColumn
 from mixedlub.schema.table import span
+from mixedlub.schema.table_files import LongTable, write_long
 from mixedlub.schema.units import unit_of
 from mixedlub.study import batch, checkpoint
 from mixedlub.study.columns import (
@@ -24,7 +26,6 @@ from mixedlub.study.columns import (
     FURTHER,
     OF_VALIDITY,
     VALIDITY,
-    Column,
     condition_columns,
     every_column,
     loss_columns,
@@ -32,7 +33,6 @@ from mixedlub.study.columns import (
 from mixedlub.study.derived import derived
 from mixedlub.study.pieces import Block
 from mixedlub.study.plan import Study, counted, factors
-from mixedlub.study.table_files import write_tables
 from mixedlub.study.validity import flags_of, out_of_range
 from profiles.errors import InputError, refuse_other
 
@@ -110,7 +110,7 @@ class Results:
         return np.logical_or.reduce([np.zeros(self.study.plan.shape, bool), *(g > 0 for g in self.flags.values())])
 
     @property
-    def columns(self) -> tuple[Column, ...]:
+    def columns(self) -> tuple[ResultColumn, ...]:
         """The columns of outputs that the table of this study has; that of the validity is behind ``FIRST``."""
         known = (*COLUMNS.values(), *loss_columns(self.study.plan.losing))
         return tuple(column for column in known if column.output in self.values)
@@ -138,7 +138,7 @@ class Results:
             "gear_surface": ("pairing", [b for _, b in self.study.pairings]),
             **{name: (name, list(getattr(levels, name)), {"units": unit_of(name)}) for name in LEVELS},
         }
-        checks = [Column(name, name, CHECKS[name]) for name in batch.CHECKS]
+        checks = [ResultColumn(name, name, CHECKS[name]) for name in batch.CHECKS]
         variables = {
             c.name: (("pairing", *LEVELS), c.of(self.values[c.output]), {"units": c.unit, "long_name": c.meaning})
             for c in (*self.columns, *checks)
@@ -181,17 +181,19 @@ class Results:
                 columns[c.name] = checkpoint.floats(c.of(self.values[c.output][start : start + step]))
             yield pa.table(columns)
 
+    def long_table(self) -> LongTable:
+        """The rows with their metadata, to be written."""
+        return LongTable(
+            self.tables,
+            tuple(next(self.tables()).column_names),
+            about_table(self.study),
+            self.study.needs_quotes,
+            (*(c.name for c in condition_columns()), VALIDITY),
+        )
+
     def write(self, csv_path: Path, parquet_path: Path) -> None:
         """The rows as CSV and Parquet."""
-        write_tables(
-            self.tables(),
-            every_column(self.study.plan.losing),
-            about_table(self.study),
-            csv=csv_path,
-            parquet=parquet_path,
-            quoted=self.study.needs_quotes,
-            repeating=[*(c.name for c in condition_columns()), VALIDITY],
-        )
+        write_long(self.long_table(), every_column(self.study.plan.losing), csv_path, parquet_path)
 
 
 def about_table(study: Study) -> dict[str, str]:

@@ -1,105 +1,187 @@
-"""Tables of a loaded tooth contact, with units in the names of the columns."""
+"""Tables of a loaded tooth contact: each column with its unit, its meaning and where its values come from."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from mixedlub.gear import GearPair, IsoStiffness, loss_factors
+from mixedlub.gear import IsoStiffness, loss_factors
 from mixedlub.gear.analysis.tooth_contact import ToothContact
 from mixedlub.schema.findings import collected
+from mixedlub.schema.result import column, described, frame_of
 
 STIFFNESS = 1e-9
 """From N/m per m to N/(mm um)."""
 
 
+def _solved(value: Callable[[ToothContact, Any], Any]) -> Callable[[ToothContact], Any]:
+    """Values that elastic teeth have: a function of the contact and its distribution."""
+    return lambda found: None if found.distribution is None else value(found, found.distribution)
+
+
+TORQUE = "torque on the pinion"
+ROLL = "roll angle of the pinion, at the middle of the face"
+LOAD_SHARE = (
+    column(lambda f: f.torque[:, None], "torque_Nm", TORQUE),
+    column(lambda f: np.degrees(f.roll_angle), "roll_angle_deg", ROLL),
+    column(lambda f: f.load_share, "load_share", "part of the force on the base tangent that one tooth pair carries"),
+)
+LINE_LOADS = (
+    column(lambda f: f.torque[:, None, None], "torque_Nm", TORQUE),
+    column(lambda f: np.degrees(f.roll_angle)[:, None], "roll_angle_deg", ROLL),
+    column(lambda f: f.face * 1e3, "face_position_mm", "middle of the slice across the face, from the front"),
+    column(lambda f: f.position * 1e3, "path_position_mm", "place on the path, from the pinion's base tangent point"),
+    column(lambda f: f.line_load * 1e-3, "line_load_N_mm", "normal force over length of the contact line"),
+    column(lambda f: f.pressure * 1e-6, "hertz_pressure_MPa", "largest Hertz pressure of the slice"),
+    column(lambda f: f.sliding, "sliding_over_base_speed", "sliding speed over the speed of the pinion's base circle"),
+)
+TRANSMISSION = (
+    column(lambda f: f.torque[:, None], "torque_Nm", TORQUE),
+    column(lambda f: _pitches(f), "base_pitches", "turn of the mesh, in base pitches", "base pitches"),
+    column(
+        lambda f: np.degrees(_pitches(f) * f.pair.base_pitch / f.pair.base_radius[0]),
+        "roll_angle_deg",
+        f"{ROLL}, turned",
+    ),
+    column(
+        _solved(lambda f, s: s.approach * 1e6), "transmission_error_um", "approach of the wheels on the base tangent"
+    ),
+    column(
+        _solved(lambda f, s: s.stiffness * 1e-6), "mesh_stiffness_N_um", "tangent stiffness of all pairs in contact"
+    ),
+    column(
+        _solved(lambda f, s: f.base_force[:, None] / s.approach * 1e-6), "secant_stiffness_N_um", "force over approach"
+    ),
+    column(_solved(lambda f, s: (s.force.sum(axis=3) > 0).sum(axis=2)), "pairs_in_contact", "tooth pairs that carry"),
+    column(
+        _solved(lambda f, s: s.force.max(axis=(2, 3)) * f.face.size / f.pair.face_width * 1e-3),
+        "largest_line_load_N_mm",
+        "largest line load of all pairs",
+    ),
+    column(
+        _solved(lambda f, s: (s.force.sum(axis=2) * s.face).sum(axis=2) / s.force.sum(axis=(2, 3)) * 1e3),
+        "load_centre_mm",
+        "centre of the load across the face, from the front",
+    ),
+)
+_UNIT = "N/(mm µm)"
+_APPROACH = (
+    column(lambda f: f.torque, "torque_Nm", TORQUE),
+    column(
+        lambda f: f.base_force, "base_tangent_force_N", "transverse force on the base tangent, torque over base radius"
+    ),
+    column(
+        lambda f: f.base_force * math.tan(abs(f.pair.base_helix_angle)),
+        "axial_force_N",
+        "axial force, without friction",
+    ),
+    column(
+        _solved(lambda f, s: s.approach.mean(axis=1) * 1e6), "mean_transmission_error_um", "mean transmission error"
+    ),
+    column(
+        _solved(lambda f, s: s.peak_to_peak * 1e6),
+        "peak_to_peak_transmission_error_um",
+        "its largest less its smallest",
+    ),
+    column(
+        _solved(lambda f, s: s.stiffness.mean(axis=1) / f.pair.face_width * STIFFNESS),
+        "mean_mesh_stiffness_N_mm_um",
+        "mean tangent stiffness of the mesh over face width",
+        _UNIT,
+    ),
+    column(
+        _solved(lambda f, s: (f.base_force[:, None] / s.approach / f.pair.face_width).mean(axis=1) * STIFFNESS),
+        "mean_secant_stiffness_N_mm_um",
+        "mean force over approach and face width",
+        _UNIT,
+    ),
+)
+_ISO = tuple(
+    column(value, f"iso_{name}_stiffness_N_mm_um", f"{meaning}, ISO 6336-1", _UNIT)
+    for value, name, meaning in (
+        (lambda iso: [one.theoretical * STIFFNESS for one in iso], "theoretical_single", "stiffness of a pair c'_th"),
+        (lambda iso: [one.single * STIFFNESS for one in iso], "single", "stiffness of a pair c'"),
+        (lambda iso: [one.mesh * STIFFNESS for one in iso], "mesh", "mesh stiffness c_gamma_alpha"),
+        (lambda iso: [one.face * STIFFNESS for one in iso], "face", "c_gamma_beta, for the face load factor"),
+    )
+)
+_LOADED = (
+    column(lambda f: f.load_share.max(axis=1), "largest_load_share", "largest load share of a tooth pair"),
+    column(lambda f: f.line_load.max(axis=(1, 2)) * 1e-3, "largest_line_load_N_mm", "largest line load"),
+    column(lambda f: f.pressure.max(axis=(1, 2)) * 1e-6, "largest_hertz_pressure_MPa", "largest Hertz pressure"),
+    column(
+        lambda f: f.face_load_factor, "face_load_factor", "largest over mean load across the face, mean of the mesh"
+    ),
+    column(lambda f: 100.0 * f.pattern, "contact_pattern_percent", "part of the flank on the path that touches"),
+    column(lambda f: 100.0 * f.beyond_path, "load_beyond_path_percent", "part of the load on edges beyond the path"),
+    column(lambda f: f.loss_factor, "local_loss_factor", "tooth loss factor of the local load"),
+)
+SUMMARY = (*_APPROACH, *_ISO, *_LOADED)
+LOSS_FACTORS = described(
+    loss_factor="text: formula, or local for the load of this mesh",
+    torque_Nm=f"{TORQUE}, of the local one",
+    value="tooth loss factor",
+    outside_range="text: why a formula does not hold for these gears",
+)
+GEOMETRY = {
+    "transverse_contact_ratio": lambda pair: pair.contact_ratio,
+    "overlap_ratio": lambda pair: pair.overlap_ratio,
+    "working_pressure_angle_deg": lambda pair: math.degrees(pair.working_pressure_angle),
+    "base_helix_angle_deg": lambda pair: math.degrees(pair.base_helix_angle),
+    "centre_distance_mm": lambda pair: pair.working_centre_distance * 1e3,
+    "backlash_mm": lambda pair: pair.backlash * 1e3,
+    "base_pitch_mm": lambda pair: pair.base_pitch * 1e3,
+    "path_start_mm": lambda pair: pair.path_start * 1e3,
+    "pitch_point_mm": lambda pair: pair.pitch_point * 1e3,
+    "path_end_mm": lambda pair: pair.path_end * 1e3,
+    "path_length_mm": lambda pair: (pair.path_end - pair.path_start) * 1e3,
+    "pinion_base_diameter_mm": lambda pair: pair.base_radius[0] * 2e3,
+    "gear_base_diameter_mm": lambda pair: pair.base_radius[1] * 2e3,
+    "pinion_tip_diameter_mm": lambda pair: pair.tip_radii[0] * 2e3,
+    "gear_tip_diameter_mm": lambda pair: pair.tip_radii[1] * 2e3,
+    "pinion_tip_thickness_mm": lambda pair: pair.tip_thickness[0] * 1e3,
+    "gear_tip_thickness_mm": lambda pair: pair.tip_thickness[1] * 1e3,
+}
+"""Geometry of the mesh by name with unit; positions on the path count from the base tangent point of the pinion."""
+TABLES = {
+    "summary": SUMMARY,
+    "load_share": LOAD_SHARE,
+    "line_loads": LINE_LOADS,
+    "transmission_error": TRANSMISSION,
+    "loss_factors": LOSS_FACTORS,
+    "geometry": described(quantity="text: name with unit", value="in the unit of the quantity"),
+}
+"""Columns of the tables of `mixedlub gear`."""
+
+
+def tables(found: ToothContact, iso: Sequence[IsoStiffness]) -> dict[str, pd.DataFrame]:
+    """Every table by the name of its file; the transmission error of elastic teeth alone."""
+    summary = pd.concat([frame_of(found, _APPROACH), frame_of(iso, _ISO), frame_of(found, _LOADED)], axis=1)
+    made = {"summary": summary, "load_share": load_share_table(found), "line_loads": line_load_table(found)}
+    if found.distribution is not None:
+        made["transmission_error"] = frame_of(found, TRANSMISSION, found.distribution.approach.shape)
+    geometry = [(name, value(found.pair)) for name, value in GEOMETRY.items()]
+    return {
+        **made,
+        "loss_factors": loss_factor_table(found),
+        "geometry": pd.DataFrame(geometry, columns=["quantity", "value"]),
+    }
+
+
 def load_share_table(found: ToothContact) -> pd.DataFrame:
     """Share of one tooth pair over the roll angle of the pinion, as `load_share.csv` of a case."""
-    torques, positions = found.load_share.shape
-    return pd.DataFrame(
-        {
-            "torque_Nm": np.repeat(found.torque, positions),
-            "roll_angle_deg": np.tile(np.degrees(found.roll_angle), torques),
-            "load_share": found.load_share.ravel(),
-        }
-    )
+    return frame_of(found, LOAD_SHARE, found.load_share.shape)
 
 
 def line_load_table(found: ToothContact) -> pd.DataFrame:
     """Line load, pressure and sliding of each slice of one tooth pair on its way through the mesh."""
-    torques, positions, slices = found.force.shape
-    every = np.ones((torques, 1, 1))
-    columns = {
-        "torque_Nm": found.torque[:, None, None],
-        "roll_angle_deg": np.degrees(found.roll_angle)[None, :, None],
-        "face_position_mm": found.face * 1e3,
-        "path_position_mm": found.position * 1e3 * every,
-        "line_load_N_mm": found.line_load * 1e-3,
-        "hertz_pressure_MPa": found.pressure * 1e-6,
-        "sliding_over_base_speed": found.sliding * every,
-    }
-    shape = (torques, positions, slices)
-    table = pd.DataFrame({name: np.broadcast_to(values, shape).ravel() for name, values in columns.items()})
-    touching = np.broadcast_to(found.on_path | (found.force > 0).any(axis=0), shape).ravel()
+    table = frame_of(found, LINE_LOADS, found.force.shape)
+    touching = np.broadcast_to(found.on_path | (found.force > 0).any(axis=0), found.force.shape).ravel()
     return table[touching].reset_index(drop=True)
-
-
-def transmission_table(found: ToothContact) -> pd.DataFrame:
-    """Transmission error and stiffness over the mesh of elastic teeth; empty of others."""
-    solved = found.distribution
-    if solved is None:
-        return pd.DataFrame()
-    torques, phases = solved.approach.shape
-    pairs_touching = (solved.force.sum(axis=3) > 0).sum(axis=2)
-    load = solved.force.sum(axis=2)
-    secant = found.base_force[:, None] / solved.approach
-    pitches = (np.arange(phases) + 0.5) / found.conditions.positions
-    columns = {
-        "torque_Nm": np.repeat(found.torque, phases),
-        "base_pitches": np.tile(pitches, torques),
-        "roll_angle_deg": np.tile(np.degrees(pitches * found.pair.base_pitch / found.pair.base_radius[0]), torques),
-        "transmission_error_um": solved.approach.ravel() * 1e6,
-        "mesh_stiffness_N_um": solved.stiffness.ravel() * 1e-6,
-        "secant_stiffness_N_um": secant.ravel() * 1e-6,
-        "pairs_in_contact": pairs_touching.ravel(),
-        "largest_line_load_N_mm": solved.force.max(axis=(2, 3)).ravel() * _per_width(found) * 1e-3,
-        "load_centre_mm": ((load * solved.face).sum(axis=2) / load.sum(axis=2)).ravel() * 1e3,
-    }
-    return pd.DataFrame(columns)
-
-
-def summary_table(found: ToothContact, iso: list[IsoStiffness]) -> pd.DataFrame:
-    """One row a torque."""
-    pair, solved = found.pair, found.distribution
-    columns: dict[str, object] = {
-        "torque_Nm": found.torque,
-        "base_tangent_force_N": found.base_force,
-        "axial_force_N": found.base_force * math.tan(abs(pair.base_helix_angle)),
-    }
-    if solved is not None:
-        mean = found.base_force[:, None] / solved.approach / pair.face_width
-        columns |= {
-            "mean_transmission_error_um": solved.approach.mean(axis=1) * 1e6,
-            "peak_to_peak_transmission_error_um": solved.peak_to_peak * 1e6,
-            "mean_mesh_stiffness_N_mm_um": solved.stiffness.mean(axis=1) / pair.face_width * STIFFNESS,
-            "mean_secant_stiffness_N_mm_um": mean.mean(axis=1) * STIFFNESS,
-        }
-    columns |= {
-        "iso_theoretical_single_stiffness_N_mm_um": [one.theoretical * STIFFNESS for one in iso],
-        "iso_single_stiffness_N_mm_um": [one.single * STIFFNESS for one in iso],
-        "iso_mesh_stiffness_N_mm_um": [one.mesh * STIFFNESS for one in iso],
-        "iso_face_stiffness_N_mm_um": [one.face * STIFFNESS for one in iso],
-        "largest_load_share": found.load_share.max(axis=1),
-        "largest_line_load_N_mm": found.line_load.max(axis=(1, 2)) * 1e-3,
-        "largest_hertz_pressure_MPa": found.pressure.max(axis=(1, 2)) * 1e-6,
-        "face_load_factor": found.face_load_factor,
-        "contact_pattern_percent": 100.0 * found.pattern,
-        "load_beyond_path_percent": 100.0 * found.beyond_path,
-        "local_loss_factor": found.loss_factor,
-    }
-    return pd.DataFrame(columns)
 
 
 def loss_factor_table(found: ToothContact) -> pd.DataFrame:
@@ -108,35 +190,10 @@ def loss_factor_table(found: ToothContact) -> pd.DataFrame:
         closed = loss_factors(found.pair)
     rows = [(factor.name, math.nan, factor.value, factor.outside) for factor in closed]
     rows += [("local", torque, value, "") for torque, value in zip(found.torque, found.loss_factor, strict=True)]
-    return pd.DataFrame(rows, columns=["loss_factor", "torque_Nm", "value", "outside_range"])
+    return pd.DataFrame(rows, columns=[one.name for one in LOSS_FACTORS])
 
 
-GEOMETRY = (
-    ("transverse_contact_ratio", lambda pair: pair.contact_ratio),
-    ("overlap_ratio", lambda pair: pair.overlap_ratio),
-    ("working_pressure_angle_deg", lambda pair: math.degrees(pair.working_pressure_angle)),
-    ("base_helix_angle_deg", lambda pair: math.degrees(pair.base_helix_angle)),
-    ("centre_distance_mm", lambda pair: pair.working_centre_distance * 1e3),
-    ("backlash_mm", lambda pair: pair.backlash * 1e3),
-    ("base_pitch_mm", lambda pair: pair.base_pitch * 1e3),
-    ("path_start_mm", lambda pair: pair.path_start * 1e3),
-    ("pitch_point_mm", lambda pair: pair.pitch_point * 1e3),
-    ("path_end_mm", lambda pair: pair.path_end * 1e3),
-    ("path_length_mm", lambda pair: (pair.path_end - pair.path_start) * 1e3),
-    ("pinion_base_diameter_mm", lambda pair: pair.base_radius[0] * 2e3),
-    ("gear_base_diameter_mm", lambda pair: pair.base_radius[1] * 2e3),
-    ("pinion_tip_diameter_mm", lambda pair: pair.tip_radii[0] * 2e3),
-    ("gear_tip_diameter_mm", lambda pair: pair.tip_radii[1] * 2e3),
-    ("pinion_tip_thickness_mm", lambda pair: pair.tip_thickness[0] * 1e3),
-    ("gear_tip_thickness_mm", lambda pair: pair.tip_thickness[1] * 1e3),
-)
-"""What the data sheet means for the mesh: name with unit, and value of a pair."""
-
-
-def geometry_table(pair: GearPair) -> pd.DataFrame:
-    """Geometry of the mesh; positions on the path count from the base tangent point of the pinion."""
-    return pd.DataFrame([(name, value(pair)) for name, value in GEOMETRY], columns=["quantity", "value"])
-
-
-def _per_width(found: ToothContact) -> float:
-    return found.face.size / found.pair.face_width
+def _pitches(found: ToothContact) -> np.ndarray:
+    """Turn of the mesh at the middles of its phases (base pitches)."""
+    assert found.distribution is not None
+    return (np.arange(found.distribution.approach.shape[1]) + 0.5) / found.conditions.positions

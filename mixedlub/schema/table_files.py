@@ -1,0 +1,178 @@
+"""Tables as CSV, Parquet and a workbook, with the unit and meaning of every column."""
+
+from __future__ import annotations
+
+import re
+from collections import deque
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import pyarrow as pa
+
+    from mixedlub.schema.result import ResultColumn
+
+THREADS = 2
+"""Threads that write numbers as text, which takes longest; each holds one table as text."""
+DIGITS = "%.12g"
+"""Digits of numbers in CSV files: parts add up to their total within 1e-9."""
+FORMULA = r"^([=+\-@\t\r])"
+"""Begin of a text that a spreadsheet takes as a formula."""
+MOST_SHEET_ROWS, LONGEST_SHEET_NAME = 1_048_574, 31
+"""Limits of a sheet of a workbook, two header rows left out."""
+
+
+@dataclass(frozen=True)
+class CsvStyle:
+    """Separator and decimal mark of a CSV file."""
+
+    separator: str = ","
+    decimal: str = "."
+
+
+STYLES = {"plain": CsvStyle(), "german": CsvStyle(";", ",")}
+
+
+@dataclass(frozen=True)
+class LongTable:
+    """A table of any length in pieces of the same columns.
+
+    ``about`` is the metadata of the whole, ``quoted`` whether a text may need quotes or escapes in CSV, ``repeating``
+    the columns in which values repeat, ``csv`` whether it is short enough for CSV beside Parquet.
+    """
+
+    pieces: Callable[[], Iterable[pa.Table]]
+    names: tuple[str, ...]
+    about: Mapping[str, str] = field(default_factory=dict)
+    quoted: bool = True
+    repeating: tuple[str, ...] = ()
+    csv: bool = True
+
+
+def escaped(text: Any) -> Any:
+    """A text that no spreadsheet takes as a formula; anything else as it is.
+
+    >>> escaped("=1+1"), escaped("ground"), escaped(-1.0)
+    ("'=1+1", 'ground', -1.0)
+    """
+    return re.sub(FORMULA, r"'\1", text) if isinstance(text, str) else text
+
+
+def write_frame(
+    table: pd.DataFrame, columns: Sequence[ResultColumn], csv: Path, parquet: Path, style: CsvStyle, title: str = ""
+) -> None:
+    """Write a table into both files."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    _escaped(table).to_csv(
+        csv, index=False, lineterminator="\n", sep=style.separator, decimal=style.decimal, float_format=DIGITS
+    )
+    mixed = [name for name in table.columns if table[name].dtype == object and table[name].map(type).nunique() > 1]
+    arrow = pa.Table.from_pandas(table.astype(dict.fromkeys(mixed, str)), preserve_index=False)
+    pq.write_table(arrow.cast(_described(arrow.schema, columns, {"title": title})), parquet)
+
+
+def write_long(
+    table: LongTable, columns: Sequence[ResultColumn], csv: Path, parquet: Path, style: CsvStyle = STYLES["plain"]
+) -> None:
+    """Write the pieces of a table one after another into both files."""
+    import pyarrow.parquet as pq
+
+    waiting: deque[Future[pa.Buffer]] = deque()
+    with ExitStack() as files, ThreadPoolExecutor(THREADS) as pool:
+        text = files.enter_context(csv.open("wb")) if table.csv else None
+        writer: pq.ParquetWriter | None = None
+        for piece in table.pieces():
+            if text is not None:
+                waiting.append(pool.submit(_as_csv, piece, style, header=writer is None, quoted=table.quoted))
+            if writer is None:
+                schema = _described(piece.schema, columns, table.about)
+                writer = files.enter_context(pq.ParquetWriter(parquet, schema, use_dictionary=list(table.repeating)))
+            writer.write_table(piece)
+            while text is not None and len(waiting) > THREADS:
+                text.write(waiting.popleft().result())
+        if text is not None:
+            text.writelines(part.result() for part in waiting)
+
+
+def write_workbook(
+    tables: Mapping[str, tuple[pd.DataFrame | LongTable, Sequence[ResultColumn]]], path: Path
+) -> list[str]:
+    """Write a sheet a table: names and units in two frozen rows, then the values; a last sheet has the meanings.
+
+    Returns the tables that are too long for a sheet and left out.
+    """
+    from openpyxl import Workbook
+
+    book, about, left_out = Workbook(write_only=True), [("table", "column", "unit", "meaning")], []
+    for name, (table, columns) in tables.items():
+        sheet = book.create_sheet(name[:LONGEST_SHEET_NAME])
+        sheet.freeze_panes = "A3"
+        sheet.append([escaped(c.name) for c in columns])
+        sheet.append([c.unit for c in columns])
+        about += [(name, escaped(c.name), c.unit, c.meaning) for c in columns]
+        for number, row in enumerate(_rows(table)):
+            if number == MOST_SHEET_ROWS:
+                left_out.append(name)
+                break
+            sheet.append([_cell(value) for value in row])
+    last = book.create_sheet("columns")
+    last.freeze_panes = "A2"
+    for line in about:
+        last.append(line)
+    book.save(path)
+    return left_out
+
+
+def _rows(table: pd.DataFrame | LongTable) -> Iterator[Iterable[Any]]:
+    if not isinstance(table, LongTable):
+        yield from table.itertuples(index=False, name=None)
+        return
+    for piece in table.pieces():
+        yield from zip(*(column.to_pylist() for column in piece.columns))
+
+
+def _cell(value: Any) -> Any:
+    """A value as a workbook has it: no formula, and empty in place of what is not a finite number."""
+    value = value.item() if hasattr(value, "item") else value
+    return None if isinstance(value, float) and value - value != 0.0 else escaped(value)
+
+
+def _escaped(table: pd.DataFrame) -> pd.DataFrame:
+    """The table with texts that no spreadsheet takes as a formula."""
+    texts = [name for name in table.columns if table[name].dtype.kind not in "fiub"]
+    return table.assign(**{name: table[name].map(escaped) for name in texts}).rename(columns=escaped)
+
+
+def _as_csv(table: pa.Table, style: CsvStyle, *, header: bool, quoted: bool) -> pa.Buffer:
+    import pyarrow as pa
+    import pyarrow.compute as pc
+    from pyarrow.csv import WriteOptions, write_csv
+
+    for place, one in enumerate(table.schema):
+        if pa.types.is_string(one.type) and quoted:
+            table = table.set_column(place, one.name, pc.replace_substring_regex(table[place], FORMULA, r"'\1"))
+        elif pa.types.is_floating(one.type) and style.decimal != ".":
+            text = pc.replace_substring(pc.cast(table[place], pa.string()), ".", style.decimal)
+            table = table.set_column(place, one.name, text)
+    style_of_quotes = "needed" if quoted else "none"
+    options = WriteOptions(
+        include_header=header, quoting_style=style_of_quotes, quoting_header="none", delimiter=style.separator
+    )
+    sink = pa.BufferOutputStream()
+    write_csv(table, sink, options)
+    return sink.getvalue()
+
+
+def _described(schema: pa.Schema, columns: Collection[ResultColumn], about: Mapping[str, str]) -> pa.Schema:
+    """The columns with unit and meaning, and the metadata of the table."""
+    import pyarrow as pa
+
+    known = {c.name: {"unit": c.unit, "meaning": c.meaning} for c in columns}
+    return pa.schema([one.with_metadata(known[one.name]) for one in schema], metadata=dict(about))
