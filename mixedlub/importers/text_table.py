@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
@@ -16,10 +15,11 @@ from mixedlub.importers.base import Answers
 from mixedlub.importers.decimals import Line, common_length, is_written_number, with_points
 from mixedlub.importers.header import header_of
 from mixedlub.importers.odd_rows import cleared, count, places, without_repeated_headers, without_summaries
-from mixedlub.schema.table import LARGEST, are_numbers, is_missing, is_number
+from mixedlub.schema.table import LARGEST, are_numbers, csv_rows, is_missing, is_number
 from mixedlub.schema.units import words_of
 from profiles.errors import InputError, nearest
 from profiles.readers.workbook import UNCALCULATED
+from profiles.units import number as number_in
 
 SEPARATORS = "\t;,"
 UNIT = r"[(\[](?:[^()\[\]]|/\s*\([^()\[\]]*\))*[)\]]"
@@ -29,11 +29,10 @@ WORDS = re.compile(r"\S+(?:\s\S+)*")
 """A cell between blanks: a word, a word and its unit, or words with single blanks between."""
 
 
-def rows_of(numbered: Sequence[tuple[int, str]], separator: str = "") -> list[Line]:
+def rows_of(numbered: Sequence[tuple[int, str]], name: str, separator: str = "") -> list[Line]:
     """The cells of numbered lines, separated by blanks only where no separator gives as many rows of numbers."""
     mark = separator or max(SEPARATORS, key=lambda mark: _regularity([line.count(mark) for _, line in numbered]))
-    reader = csv.reader((line for _, line in numbered), delimiter=mark)
-    marked = [(numbered[reader.line_num - 1][0], [cell.strip() for cell in row]) for row in reader]
+    marked = [(number, [cell.strip() for cell in row]) for number, row in csv_rows(numbered, name, mark)]
     if separator or not any(_tally(line.split())[0] for _, line in numbered if len(line.split(None, 1)) > 1):
         return marked
     blank = _by_blanks(numbered)
@@ -143,7 +142,7 @@ def read_sheet(text: str, name: str, decimal: str | None = None, separator: str 
         for number, line in enumerate(text.splitlines(), start=1)
         if line.strip() and not line.lstrip().startswith("#")
     ]
-    every = with_header([line for line in rows_of(numbered, separator) if any(line[1])], dict(numbered))
+    every = with_header([line for line in rows_of(numbered, name, separator) if any(line[1])], dict(numbered))
     rows, repeated = without_repeated_headers(every)
     if len(rows) < 2:
         raise InputError("needs a header line and at least one row", where=name)
@@ -369,7 +368,7 @@ def joined_runs(parts: Sequence[tuple[str, np.ndarray | None]]) -> tuple[np.ndar
 
 def _whole(cell: str) -> int | None:
     try:
-        value = float(cell)
+        value = number_in(cell)
     except ValueError:
         return None
     return int(value) if abs(value) < LARGEST and value == int(value) else None

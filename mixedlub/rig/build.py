@@ -289,6 +289,10 @@ def flank_map(name: str, section: surface_file.SurfaceSection, folder: Path) -> 
             cutoff=long if fits else None,
             short_cutoff=short if resolved else None,
         )
+    holes = int(np.count_nonzero(~np.isfinite(area.heights)))
+    if holes:
+        text = f"{holes} of {area.heights.size} points of the map have no height; its moments leave them out"
+        report(finding("trace_quality", text, f"surfaces.{name}"))
     said = f"cutoff_mm = {long * 1e3:g}" if fits else "no cut-off, as the map is shorter than 0.8 mm"
     said += f", short_cutoff_um = {short * 1e6:g}" if resolved else ""
     if section.cutoff_mm is None or section.short_cutoff_um is None:

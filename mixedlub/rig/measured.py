@@ -166,7 +166,7 @@ class Measured:
     def heights(self) -> np.ndarray:
         """All filtered heights: of the map, or of the traces across the lay (m)."""
         if self.area is not None:
-            return self.area.heights.ravel()
+            return self.area.heights[np.isfinite(self.area.heights)]
         profile = self.profile()
         return profile.heights[profile.valid]
 

@@ -42,6 +42,18 @@ class Source:
         return PurePath(self.bare).stem or self.where
 
 
+class HoldsMap(InputError):
+    """A height map where a trace was asked for."""
+
+    def __init__(self, where: str, shape: tuple[int, ...]) -> None:
+        file = PurePath(where).name
+        rule = (
+            f'holds an areal map of {" x ".join(map(str, shape))} points, not a profile: name it as map = "{file}" of a '
+            f'surface in a study or case, or cut a trace by profiles.image.along_direction(read_map("{file}"), angle)'
+        )
+        super().__init__(rule, where=where)
+
+
 class Reader(Protocol):
     """One file format. ``magic`` is cheap and never raises; ``read`` raises InputError and nothing else."""
 

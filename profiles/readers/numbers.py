@@ -12,7 +12,7 @@ import numpy as np
 
 from profiles.errors import InputError
 from profiles.readers.base import MAX_POINTS
-from profiles.units import known_unit
+from profiles.units import known_unit, number
 
 _NUMBER = re.compile(r"[-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d+)?\Z")
 _ABSENT = re.compile(r"[-+]?(?:nan|inf|infinity|n/a|na|null|none|-+|\*+|#n/a|bad)\Z", re.IGNORECASE)
@@ -52,21 +52,6 @@ class Table:
             rule = "the numbers end above this line; delete what is below"
             raise InputError(rule, where=f"{where}: line {self.footer_line}", value=self.footer[0])
         return self
-
-
-def number(text: str) -> float:
-    """The number in a text; unlike in Python a stroke between digits is none.
-
-    >>> number(" 17.49 ")
-    17.49
-    >>> number("1_7.49")
-    Traceback (most recent call last):
-    ...
-    ValueError: not a number: '1_7.49'
-    """
-    if "_" in text:
-        raise ValueError(f"not a number: {text!r}")
-    return float(text)
 
 
 def decoded(data: bytes, where: str) -> str:

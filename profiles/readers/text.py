@@ -10,10 +10,10 @@ import numpy as np
 from profiles.errors import InputError
 from profiles.profile import Profile
 from profiles.readers.base import Source, bridged, make_profile
-from profiles.readers.numbers import Counted, Table, decoded, number, split, table
+from profiles.readers.numbers import Counted, Table, decoded, split, table
 from profiles.readers.plausible import Units, doubt, inferred_note, inferred_units
 from profiles.readers.positions import RESAMPLED, Sampled, sampled
-from profiles.units import METRES, known_unit, length, metres
+from profiles.units import METRES, known_unit, length, metres, number
 
 _LAST_WORD = re.compile(r"([\[(/_ ])\s*([^\s\[\]()/_]+)\s*[\])]?\s*\Z")
 _MARKS = {"a": "[(", "in": "[(/", "m": "[(/_"}

@@ -9,7 +9,7 @@ import numpy as np
 from profiles.errors import InputError
 from profiles.profile import Profile
 from profiles.readers.archive import check_archive, members
-from profiles.readers.base import Source, foreign_parser, make_profile
+from profiles.readers.base import HoldsMap, Source, foreign_parser, make_profile
 from profiles.readers.positions import sampled
 
 
@@ -32,9 +32,11 @@ class X3pReader:
 
         with foreign_parser("x3p", source.where):
             content = x3pio.read(io.BytesIO(source.data))
+            if isinstance(content, x3pio.Surface):
+                raise HoldsMap(source.where, np.asarray(content.layers[0].z).shape)
             if not isinstance(content, x3pio.Profile):
                 kind = type(content).__name__.lower()
-                raise InputError(f"holds a {kind}, not a profile; cut a trace from it first", where=source.where)
+                raise InputError(f"holds a {kind}, not a profile: export a profile or a height map", where=source.where)
             layers = content.layers
             x = np.asarray(layers[0].x, dtype=float).ravel()
             z = np.asarray(layers[0].z, dtype=float).ravel()
