@@ -408,12 +408,12 @@ def _parse(
             return {name: values for name, values in found.items() if values is not None}
     # A cell is empty or invalid: parse cell by cell, so that the error names the first one.
     cells: dict[str, list[float | int | str]] = {name: [] for name in header if name in known}
-    for number, row in lines[1:]:
+    for line, row in lines[1:]:
         if len(row) != len(header):
             raise InputError(
-                f"has {len(row)} cells where the header has {len(header)}", where=f"{where}: {unit} {number}"
+                f"has {len(row)} cells where the header has {len(header)}", where=f"{where}: {unit} {line}"
             )
         for name, cell in zip(header, row, strict=True):
             if name in known:
-                cells[name].append(known[name].parse(cell, f"{where}: {unit} {number}, {name}"))
+                cells[name].append(known[name].parse(cell, f"{where}: {unit} {line}, {name}"))
     return {name: np.array(values) for name, values in cells.items()}
