@@ -25,7 +25,7 @@ from mixedlub.chain.priors import Normal
     fingerprint={},
     separated_by="a known torque on the stalled output, or runs with the gears out: an error of the motor's torque "
     "constant stays there, a loss of the gears goes",
-    applied_after=("stribeck", "load_dependent_friction", "fluid_drag", "direction_dependence"),
+    applied_after=("stribeck", "load_dependent_friction", "fluid_drag", "direction_dependence", "presliding"),
     kinds=("friction_map",),
 )
 def back_driving(running_friction: np.ndarray, load_torque: np.ndarray, *, difference: float) -> np.ndarray:

@@ -22,7 +22,8 @@ from mixedlub.friction import BASE
 from mixedlub.study.schema import Options
 from profiles.errors import InputError
 
-REPLACING = {e.id: e for e in catalogue().values() if e.replaces}
+REPLACING = {e.id: e for e in catalogue().values() if e.replaces and (not e.kinds or "gear_pair" in e.kinds)}
+"""Effects of gears that take the place of a step."""
 VALUES = {
     **{slot.option: tuple(slot.choices) for slot in SLOTS},
     "balance": ("none", "johnson_greenwood_poon"),
