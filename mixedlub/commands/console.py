@@ -41,9 +41,14 @@ _opened: list[Path] = []
 _made: list[Path] = []
 
 
-def output_folder(out: Path | None, command: str, name: str) -> Path:
-    """The output folder, created if necessary; ``out/COMMAND/NAME`` where none is given."""
+def output_folder(out: Path | None, command: str, name: str, *, knows_own: bool = False) -> Path:
+    """The output folder, created if necessary; ``out/COMMAND/NAME`` where none is given.
+
+    A command that ``knows_own`` results checks for itself which files it would replace.
+    """
     folder = Path("out") / command / name if out is None else out
+    if out is None and not knows_own and folder.is_dir() and any(p.name[0] != "." for p in folder.iterdir()):
+        note(f"the result in {folder}, maybe of another input of that name, is replaced; --out names another folder")
     try:
         _made[:] = [path for path in (folder, *folder.parents) if not path.exists()]
         folder.mkdir(parents=True, exist_ok=True)

@@ -139,7 +139,8 @@ def command(
                 note(f"{record['file']}: {text}")
     with writing(folder) as aside:
         (aside / "profile.json").write_text(json.dumps(records, indent=1) + "\n", encoding="utf-8")
-        if figures:
+    if figures:
+        with writing(folder) as aside:
             _draw(
                 aside / "figures",
                 [_stem(file) for file in files],

@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pandas as pd
 import pytest
 
 from mixedlub.cli import COMMANDS, main
@@ -197,6 +198,7 @@ def test_study_writes_where_it_is_told(study, tmp_path):
     assert main(["study", str(study), "--no-figures", "--out", "here"]) == 0
     assert sorted(p.name for p in (tmp_path / "here").iterdir()) == [
         "fits.csv",
+        "fits.parquet",
         "origin.json",
         "resolved.json",
         "results.csv",
@@ -221,18 +223,18 @@ def test_study_again_replaces_its_results_and_keeps_other_files(study, tmp_path)
     assert (tmp_path / "here" / "mine.txt").read_text() == "kept"
 
 
-def test_failed_run_leaves_earlier_results_alone(study, tmp_path, monkeypatch):
+def test_a_page_that_fails_leaves_the_tables(study, tmp_path, monkeypatch, capsys):
     main(["study", str(study), "--no-figures", "--out", "here"])
-    before = {p.name: p.read_bytes() for p in (tmp_path / "here").iterdir()}
     study.write_text(STUDY.replace("[50, 150]", "[50]"))
 
-    def broken(*arguments):
+    def broken(*arguments, **options):
         raise RuntimeError("no page today")
 
     monkeypatch.setattr("mixedlub.report.page.write_page", broken)
     assert main(["study", str(study), "--out", "here"]) == 1
-    (tmp_path / "here" / "mixedlub-error.log").unlink()
-    assert {p.name: p.read_bytes() for p in (tmp_path / "here").iterdir()} == before
+    assert "no page today" in capsys.readouterr().err
+    assert set(pd.read_csv(tmp_path / "here" / "results.csv").torque_Nm) == {50}
+    assert not (tmp_path / "here" / "index.html").exists()
 
 
 def test_unexpected_error_is_one_line_and_names_its_log(study, tmp_path, monkeypatch, capsys):
