@@ -227,8 +227,9 @@ def _drawn(result: Result, to: Delivery, page: Page | None) -> bool:
                 raise
             wrong = {"page": error}
     print_findings(findings)
-    for name, error in wrong.items():
-        fail(f"{name} is not drawn: {_reason(error)}; {save_traceback(error)}; the tables are in {to.folder}")
+    for name, reason in wrong.items():
+        place = f"{save_traceback(reason)}; the tables are in {to.folder}"
+        fail(f"{name} is not drawn: {_reason(reason)}; {place}")
     return not wrong
 
 
@@ -244,8 +245,9 @@ def _figures(result: Result, to: Delivery, aside: Path, doing: Callable[[str], N
         doing(f"drawing figure {place} of {len(result.figures)}: {name}")
         try:
             figure = drawing() if callable(drawing) else panel_figure(result.title, drawing)
-            for form in to.how.formats if figure is not None else ():
-                save(figure, folder / f"{name}.{form}")
+            if figure is not None:
+                for form in to.how.formats:
+                    save(figure, folder / f"{name}.{form}")
         except Exception as error:
             wrong[name] = error
     if result.captions:

@@ -54,10 +54,10 @@ def command(
     for option, value in {"--rigs": rigs, "--seed": seed, "--scheduler": scheduler}.items():
         if value is not None and not oil:
             raise InputError("is for oils that are solved; name them", where=option, value=value)
-    with collected() as notes, input_errors_from(NAME):
+    with collected() as findings, input_errors_from(NAME):
         given = None if oil else kept.read_solutions(kept.KEPT if solutions is None else solutions)
         of = kept.oils(oil or [] if given is None else list(given["oil"].unique()))
-    print_findings(notes)
+    print_findings(findings)
     name, source = "_".join(Path(name).stem for name in oil or ["kept"]), Path("_".join(oil or ["kept solutions"]))
     to = how.open(name, origin_of_file(solutions or source, rigs, seed), LAW_ERRORS, "set of solutions")
     if given is None:

@@ -90,10 +90,7 @@ def command(
             )
 
         shown = to.folder / "index.html"
-        if not how.figures and shown.exists():
-            if checkpoint.fingerprint(study.plan) not in shown.read_text("utf-8", "replace"):
-                note(
-                    f"{shown} and the figures beside it are of another study; without --no-figures they are drawn anew"
-                )
+        if not how.figures and shown.exists() and checkpoint.fingerprint(study.plan) not in shown.read_text("utf-8"):
+            note(f"{shown} and its figures are of another study; without --no-figures they are drawn anew")
         written = f"results in {to.folder / 'results.csv'} and .parquet" + (f", page {shown}" if how.figures else "")
         deliver(result, to, page=page, written=written)

@@ -64,9 +64,8 @@ def _summary(table: pd.DataFrame) -> tuple[Panel, ...]:
             f"largest_{name}_temperature_C": name.replace("_", " ") for name in ("film", "first_wall", "second_wall")
         },
     }
-    return tuple(
-        Panel(
-            words, up, tuple(curve(table, place, n, w, style="o-", group=g) for g, (n, w) in enumerate(names.items()))
-        )
-        for up, names in shown.items()
-    )
+    drawn = []
+    for up, names in shown.items():
+        lines = (curve(table, place, n, w, style="o-", group=g) for g, (n, w) in enumerate(names.items()))
+        drawn.append(Panel(words, up, tuple(lines)))
+    return tuple(drawn)

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.laws.oil import ZERO_CELSIUS
-from mixedlub.schema.result import ResultColumn
+from mixedlub.schema.result import ResultColumn, described
 from mixedlub.schema.section import table
 from mixedlub.study.bands import HIGH, LOW
 from mixedlub.study.bands import column as band_column
@@ -224,9 +224,7 @@ def loss_columns(effects: Iterable[str]) -> list[ResultColumn]:
 def condition_columns() -> list[ResultColumn]:
     """The columns of the pairing and the conditions."""
     levels = {key.name: key.meaning for key in table(StudyFile, "conditions").fields}
-    sides = [
-        ResultColumn("", f"{side}_surface", f"surface of the {side}", given_unit="text") for side in ("pinion", "gear")
-    ]
+    sides = described(**{f"{side}_surface": f"text: surface of the {side}" for side in ("pinion", "gear")})
     return [*sides, *(ResultColumn("", name, meaning) for name, meaning in levels.items())]
 
 

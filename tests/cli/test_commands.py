@@ -6,6 +6,7 @@ import os
 import shlex
 import subprocess
 import sys
+from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
 import pytest
@@ -197,6 +198,7 @@ def test_study_writes_where_it_is_told(study, tmp_path):
     assert main(["study", str(study), "--no-figures", "--out", "here"]) == 0
     assert sorted(p.name for p in (tmp_path / "here").iterdir()) == [
         "fits.csv",
+        "fits.parquet",
         "origin.json",
         "resolved.json",
         "results.csv",
@@ -221,15 +223,29 @@ def test_study_again_replaces_its_results_and_keeps_other_files(study, tmp_path)
     assert (tmp_path / "here" / "mine.txt").read_text() == "kept"
 
 
-def test_failed_run_leaves_earlier_results_alone(study, tmp_path, monkeypatch):
+def test_a_failed_page_leaves_the_tables(study, tmp_path, monkeypatch, capsys):
+    def broken(*arguments, **named):
+        (arguments[1] / "index.html").write_text("half")
+        raise BrokenProcessPool("a child process terminated abruptly")
+
+    monkeypatch.setattr("mixedlub.report.page.write_page", broken)
+    assert main(["study", str(study), "--out", "here"]) == 1
+    (said,) = (line for line in capsys.readouterr().err.splitlines() if line.startswith("mixedlub:"))
+    assert "memory ran out" in said
+    assert "unexpected" not in said
+    assert {"results.csv", "results.parquet", "study.toml"} <= {p.name for p in (tmp_path / "here").iterdir()}
+    assert not (tmp_path / "here" / "index.html").exists()
+
+
+def test_a_run_that_fails_before_its_tables_leaves_earlier_results_alone(study, tmp_path, monkeypatch):
     main(["study", str(study), "--no-figures", "--out", "here"])
     before = {p.name: p.read_bytes() for p in (tmp_path / "here").iterdir()}
     study.write_text(STUDY.replace("[50, 150]", "[50]"))
 
-    def broken(*arguments):
-        raise RuntimeError("no page today")
+    def broken(*arguments, **named):
+        raise RuntimeError("no table today")
 
-    monkeypatch.setattr("mixedlub.report.page.write_page", broken)
+    monkeypatch.setattr("mixedlub.commands.deliver.write_long", broken)
     assert main(["study", str(study), "--out", "here"]) == 1
     (tmp_path / "here" / "mixedlub-error.log").unlink()
     assert {p.name: p.read_bytes() for p in (tmp_path / "here").iterdir()} == before
