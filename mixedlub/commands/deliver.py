@@ -228,7 +228,8 @@ def _drawn(result: Result, to: Delivery, page: Page | None) -> bool:
             wrong = {"page": error}
     print_findings(findings)
     for name, reason in wrong.items():
-        fail(f"{name} is not drawn: {_reason(reason)}; {save_traceback(reason)}; the tables are in {to.folder}")
+        place = f"{save_traceback(reason)}; the tables are in {to.folder}"
+        fail(f"{name} is not drawn: {_reason(reason)}; {place}")
     return not wrong
 
 

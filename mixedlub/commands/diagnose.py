@@ -49,7 +49,7 @@ def command(
     """
     from mixedlub.diagnosis.report.files import WRITTEN, case_origin, diagnose
 
-    folder = output_folder(out, NAME, case_folder(case).resolve().name, knows_own=True)
+    folder = output_folder(out, NAME, case_folder(case).resolve().name)
     earlier = "" if replace else case_origin(case).check_folder(folder, WRITTEN, "case")
     if earlier:
         note(earlier)

@@ -5,14 +5,17 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from mixedlub.chain.effect import entry
-from mixedlub.commands.console import echo, named_folder, note, output_folder
-from mixedlub.running.atomic import writing
+from mixedlub.commands.console import note
+from mixedlub.commands.deliver import How, deliver, delivers
+from mixedlub.running.origin import origin_of_file
+from mixedlub.schema.result import Drawing, Result
 from profiles.errors import InputError
 
 if TYPE_CHECKING:
@@ -24,17 +27,13 @@ EXAMPLE = "mixedlub profile shipped:0258 --out out/profile"
 Record = Mapping[str, Any]
 
 
+@delivers(NAME, "xlsx", "csv_style")
 def command(
     files: Annotated[
         list[Path],
         typer.Argument(metavar="FILE...", help="Traces or height maps, each also .gz, or shipped:NAME."),
     ],
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="DIR", parser=named_folder, help="Folder for profile.json and figures; default out/profile/NAME."
-        ),
-    ] = None,
+    how: How,
     form: Annotated[
         str,
         typer.Option(
@@ -76,7 +75,6 @@ def command(
         str | None,
         typer.Option(metavar="LENGTH", help="Step of the heights, as '0.5 um'; overrules the file's, and says so."),
     ] = None,
-    figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the figures, or not.")] = True,
 ) -> None:
     """Parameters, moments and asperities of traces.
 
@@ -130,27 +128,22 @@ def command(
         raise _together(wrong)
     files, traces = [file for file, *_ in done], [trace for _, trace, *_ in done]
     records: list[dict[str, Any]] = [{**record, "file": str(file)} for file, *_, record in done]
-    folder = output_folder(out, NAME, _stem(files[0]))
-    for record in records:
-        for line in summary(record):
-            echo(line)
-        for text in record["warnings"]:
-            if f"{record['file']}: {text}" not in told_already:
-                note(f"{record['file']}: {text}")
-    with writing(folder) as aside:
-        (aside / "profile.json").write_text(json.dumps(records, indent=1) + "\n", encoding="utf-8")
-    if figures:
-        with writing(folder) as aside:
-            _draw(
-                aside / "figures",
-                [_stem(file) for file in files],
-                traces,
-                [profile for *_, profile, _ in done],
-                records,
-            )
-    if not figures and (folder / "figures").exists():
-        note(f"{folder / 'figures'} is of an earlier run; without --no-figures it is drawn anew")
-    echo(f"details in {folder / 'profile.json'}" + (f", figures in {folder / 'figures'}" if figures else ""))
+    contents = [file.read_bytes() if file.is_file() else b"" for file in files[1:]]
+    to = how.open(_stem(files[0]), origin_of_file(files[0], files[1:], contents), (), "trace", "profile.json")
+    notes = (f"{record['file']}: {text}" for record in records for text in record["warnings"])
+    result = Result(
+        "Traces",
+        {},
+        _figures([_stem(file) for file in files], traces, [profile for *_, profile, _ in done], records),
+        tuple(line for record in records for line in summary(record)),
+        tuple(text for text in notes if text not in told_already),
+        files={"profile.json": json.dumps(records, indent=1) + "\n"},
+    )
+    drawings = to.folder / "figures"
+    if not how.figures and drawings.exists():
+        note(f"{drawings} is of an earlier run; without --no-figures it is drawn anew")
+    written = f"details in {to.folder / 'profile.json'}" + (f", figures in {drawings}" if how.figures else "")
+    deliver(result, to, written=written)
     if wrong:
         raise _together(wrong, len(done))
 
@@ -227,23 +220,18 @@ def _number(value: float | None, digits: int = 4) -> str:
     return "-" if value is None else f"{value:.{digits}g}"
 
 
-def _draw(
-    folder: Path, names: list[str], traces: list[Profile], profiles: list[Profile], records: list[dict[str, Any]]
-) -> None:
-    from mixedlub.report.style import as_svg, styled
+def _figures(
+    names: list[str], traces: list[Profile], profiles: list[Profile], records: list[dict[str, Any]]
+) -> dict[str, Drawing]:
     from roughness import plots
     from roughness.record import rules_of_the_file
 
-    folder.mkdir()
-    with styled():
-        for number, (name, trace, profile, record) in enumerate(zip(names, traces, profiles, records), start=1):
-            stem = name if names.count(name) == 1 else f"{name}_{number}"
-            rule, (_, sections) = record["parameters"]["convention"], rules_of_the_file(profile, trace)
-            drawn = {
-                "trace": plots.trace_figure(profile, convention=rule, sections=sections),
-                "probability": plots.probability_figure(profile),
-                "abbott": plots.abbott_figure(profile, convention=rule, sections=sections),
-                "spectrum": plots.spectrum_figure(profile),
-            }
-            for kind, figure in drawn.items():
-                (folder / f"{stem}_{kind}.svg").write_text(as_svg(figure), encoding="utf-8")
+    drawn: dict[str, Drawing] = {}
+    for number, (name, trace, profile, record) in enumerate(zip(names, traces, profiles, records), start=1):
+        stem = name if names.count(name) == 1 else f"{name}_{number}"
+        rule, (_, sections) = record["parameters"]["convention"], rules_of_the_file(profile, trace)
+        drawn[f"{stem}_trace"] = partial(plots.trace_figure, profile, convention=rule, sections=sections)
+        drawn[f"{stem}_probability"] = partial(plots.probability_figure, profile)
+        drawn[f"{stem}_abbott"] = partial(plots.abbott_figure, profile, convention=rule, sections=sections)
+        drawn[f"{stem}_spectrum"] = partial(plots.spectrum_figure, profile)
+    return drawn

@@ -7,27 +7,29 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.console import (
-    CONDITIONS,
-    case_folder,
-    echo,
-    input_errors_from,
-    named_folder,
-    output_folder,
-    print_findings,
-)
-from mixedlub.running.atomic import writing
+from mixedlub.commands.console import CONDITIONS, case_folder, input_errors_from, print_findings
+from mixedlub.commands.deliver import How, deliver, delivers
+from mixedlub.running.origin import origin_of
+from mixedlub.schema.result import Result, described
 
 NAME = "simulate"
 EXAMPLE = "mixedlub new case --out my_case\nmixedlub simulate my_case"
+INPUTS = ("system.toml", "recordings.csv", "conditions.csv")
+"""Files of a case that a simulation is of."""
+TABLES = {
+    "simulation": described(
+        run="number of the reading",
+        validity="text: valid, or each range that the row leaves",
+        QUANTITY="reading of the base model",
+    )
+}
+"""Columns of the table of `mixedlub simulate`."""
 
 
+@delivers(NAME, "figures", "format_")
 def command(
     case: Annotated[Path, typer.Argument(metavar="CASE", help="Case folder with system.toml.")],
-    out: Annotated[
-        Path | None,
-        typer.Option(metavar="DIR", parser=named_folder, help="Folder for simulation.csv; default out/simulate/NAME."),
-    ] = None,
+    how: How,
     at: Annotated[
         Path | None, typer.Option(metavar="conditions.csv", help=f"Other conditions than the case's. {CONDITIONS}")
     ] = None,
@@ -48,8 +50,7 @@ def command(
         notes += unpredicted_runs(found, found.conditions) if at is None else []
         asked = None if at is None else read_conditions(found, at)
         rows = simulate(found, asked)
-    folder = output_folder(out, NAME, found.name)
+    to = how.open(found.name, origin_of(case, INPUTS, str(at), at and at.read_bytes()), TABLES, "case")
     print_findings(gravest_first(dict.fromkeys(notes)))
-    with writing(folder) as aside:
-        rows.to_csv(aside / "simulation.csv", index=False, lineterminator="\n")
-    echo(f"{len(rows)} rows of {found.quantity} in {folder / 'simulation.csv'}")
+    written = f"{len(rows)} rows of {found.quantity} in {to.folder / 'simulation.csv'}"
+    deliver(Result(found.name, {"simulation": rows}, {}, columns=TABLES), to, written=written)

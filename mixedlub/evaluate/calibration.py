@@ -22,6 +22,7 @@ from mixedlub.evaluate.evaluation import (
 )
 from mixedlub.evaluate.load_stages import COMMON, OWN
 from mixedlub.evaluate.loss_fit import Contacts, Fit, Scatter, calibrated, contacts_of
+from mixedlub.evaluate.result_columns import CALIBRATION
 from mixedlub.gear import at_roll_angle, local_loss_factor, mesh
 from mixedlub.kinds import columns
 from mixedlub.laws.oil import ZERO_CELSIUS
@@ -308,6 +309,7 @@ EVALUATION = Evaluation(
     file=CalibrationFile,
     columns={"the readings": COLUMNS},
     run=run,
+    results=CALIBRATION,
     example={
         "schema": "mixedlub-calibration/1",
         "title": "High-speed gears B",

@@ -15,7 +15,8 @@ from pydantic import Field, model_validator
 from mixedlub.evaluate.evaluation import CaseDraft, Curve, Evaluated, Evaluation, Panel, case_draft, check_surfaces
 from mixedlub.evaluate.load_stages import LoadStages, Split, split_loss
 from mixedlub.evaluate.outlying import check_lines
-from mixedlub.evaluate.uncertainty import Errors, combined, ends_of, interval
+from mixedlub.evaluate.result_columns import CALORIMETRIC
+from mixedlub.evaluate.uncertainty import Errors, combined, interval
 from mixedlub.gear import GearPair, Sharing, local_loss_factor, mesh
 from mixedlub.gear.build import gear_pair, sharing
 from mixedlub.kinds import columns
@@ -23,6 +24,7 @@ from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.recording.set_points import near_values
 from mixedlub.rig.build import lubricant
 from mixedlub.schema.findings import collected
+from mixedlub.schema.result import curve
 from mixedlub.schema.section import Number, Section, key
 from mixedlub.schema.system_file import Gears, Lubricant, RigFile
 from mixedlub.schema.table import RUN, Column, Table, read_table
@@ -298,7 +300,7 @@ def _lines(splits: list[Split]) -> Iterator[str]:
 def _figures(
     tables: dict[str, pd.DataFrame], splits: list[Split], stages: LoadStages, heat: Heat
 ) -> dict[str, tuple[Panel, ...]]:
-    lines, over = [], tables["series"].sort_values("pitch_line_velocity_m_s")
+    lines, series = [], tables["series"].sort_values("pitch_line_velocity_m_s")
     for number, split in enumerate(splits):
         x = stages.product[split.rows] * 1e-3
         reach = np.array([0.0, x.max()])
@@ -306,8 +308,7 @@ def _figures(
             Curve(x, heat.loss[split.rows], split.name, marker=True, group=number),
             Curve(reach, split.intercept + split.slope * reach * 1e3, group=number),
         ]
-    x, y, low, high = (over[c].to_numpy() for c in ("pitch_line_velocity_m_s", *ends_of("mean_friction")))
-    friction = Curve(x, y, marker=True, low=low, high=high)
+    friction = curve(series, "pitch_line_velocity_m_s", "mean_friction", marker=True)
     return {
         "load_stages": (Panel("input power times loss factor (kW)", "gear loss (W)", tuple(lines)),),
         "friction": (Panel("pitch line velocity (m/s)", "mean friction coefficient (-)", (friction,)),),
@@ -348,6 +349,7 @@ EVALUATION = Evaluation(
     file=CalorimetricFile,
     columns={"the readings": COLUMNS},
     run=run,
+    results=CALORIMETRIC,
     example={
         "schema": "mixedlub-calorimetric/1",
         "title": "High-speed gears B",

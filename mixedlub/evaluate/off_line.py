@@ -16,10 +16,12 @@ from mixedlub.evaluate.frequency_response import Response, division
 from mixedlub.evaluate.mesh_force import Found, Meters, cycle_pattern, friction_of_cycle
 from mixedlub.evaluate.mesh_recording import MeshRecording, SpurGearFile, mesh_friction_case, not_negative
 from mixedlub.evaluate.outlying import check_turns
+from mixedlub.evaluate.result_columns import OFF_LINE
 from mixedlub.evaluate.synchronous import Average, cycle_average, few_turns
-from mixedlub.evaluate.uncertainty import ends_of, interval
+from mixedlub.evaluate.uncertainty import interval
 from mixedlub.gear.build import gear_pair, sharing
 from mixedlub.schema.findings import collected
+from mixedlub.schema.result import curve
 from mixedlub.schema.section import Number, Section, Whole, key
 from mixedlub.schema.table import Column, Table, read_table
 from mixedlub.schema.toml_file import named_file
@@ -283,12 +285,9 @@ def _figures(file: OffLineFile, tables: dict[str, pd.DataFrame], static: Table |
     force, friction, moved = [], [], []
     for group, name in enumerate(file.recordings):
         own, local = (tables[t][tables[t]["recording"] == name] for t in ("friction_force", "friction"))
-        x = own["roll_angle_deg"].to_numpy()
-        moved.append(Curve(x, own["off_line_displacement_um"].to_numpy(), name, group=group))
-        y, low, high = (own[c].to_numpy() for c in ends_of("friction_force_N"))
-        force += [Curve(x, y, name, low=low, high=high, group=group)]
-        y, low, high = (local[c].to_numpy() for c in ends_of("friction_coefficient"))
-        friction += [Curve(local["roll_angle_deg"].to_numpy(), y, name, marker=True, low=low, high=high, group=group)]
+        moved.append(curve(own, "roll_angle_deg", "off_line_displacement_um", name, group=group))
+        force.append(curve(own, "roll_angle_deg", "friction_force_N", name, group=group))
+        friction.append(curve(local, "roll_angle_deg", "friction_coefficient", name, marker=True, group=group))
     angle = "roll angle of a pinion tooth (deg)"
     drawn = {
         "friction_force": (
@@ -323,6 +322,7 @@ EVALUATION = Evaluation(
     file=OffLineFile,
     columns={"a recording": RECORDING, "the response": RESPONSE, "the static test": STATIC},
     run=run,
+    results=OFF_LINE,
     example={
         "schema": "mixedlub-off-line/1",
         "title": "Variable centre distance rig",

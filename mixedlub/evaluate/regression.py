@@ -12,6 +12,7 @@ import pandas as pd
 from scipy.stats import norm
 
 from mixedlub.evaluate.evaluation import BEYOND_VISCOSITY, Curve, Evaluated, Evaluation, Panel, file_name
+from mixedlub.evaluate.result_columns import REGRESSION
 from mixedlub.evaluate.two_disc import hertz
 from mixedlub.friction.condensed import INPUTS, OIL
 from mixedlub.kinds import columns
@@ -271,6 +272,7 @@ EVALUATION = Evaluation(
     file=RegressionFile,
     columns={"the readings": COLUMNS},
     run=run,
+    results=REGRESSION,
     example={
         "schema": "mixedlub-regression/1",
         "title": "Traction of ATF",

@@ -16,6 +16,7 @@ from mixedlub.evaluate.evaluation import CaseDraft, Curve, Evaluated, Evaluation
 from mixedlub.evaluate.influence import Influence, fit_influence
 from mixedlub.evaluate.mesh_recording import MeshRecording, SpurGearFile, mesh_friction_case, not_negative
 from mixedlub.evaluate.outlying import check_turns
+from mixedlub.evaluate.result_columns import STRAIN_GAUGE
 from mixedlub.evaluate.synchronous import Average, few_turns, synchronous_average
 from mixedlub.evaluate.tooth_forces import (
     Forces,
@@ -27,10 +28,11 @@ from mixedlub.evaluate.tooth_forces import (
     noise_of,
     recentred,
 )
-from mixedlub.evaluate.uncertainty import combined, ends_of, interval
+from mixedlub.evaluate.uncertainty import combined, interval
 from mixedlub.gear import GearPair
 from mixedlub.gear.build import gear_pair
 from mixedlub.schema.findings import collected
+from mixedlub.schema.result import curve
 from mixedlub.schema.section import Number, Section, Whole, key
 from mixedlub.schema.table import Column, read_table
 from mixedlub.schema.toml_file import named_file
@@ -302,23 +304,16 @@ def _figures(file: StrainGaugeFile, tables: dict[str, pd.DataFrame]) -> dict[str
         own = tables["forces"][tables["forces"]["recording"] == name]
         for tooth, rows in own.groupby("tooth"):
             label = name if tooth == 1 else ""
-            x = rows["roll_angle_deg"].to_numpy()
             for curves, quantity in ((normal, "normal_force_N"), (friction, "friction_force_N")):
-                y, low, high = (rows[c].to_numpy() for c in ends_of(quantity))
-                curves.append(Curve(x, y, label, low=low, high=high, group=group))
+                curves.append(curve(rows, "roll_angle_deg", quantity, label, group=group))
             single = rows[rows["single_contact"] & ~rows["at_pitch_point"]]
-            y, low, high = (single[c].to_numpy() for c in ends_of("friction_coefficient"))
-            x = single["roll_angle_deg"].to_numpy()
-            coefficient.append(Curve(x, y, label, marker=True, low=low, high=high, group=group))
+            coefficient.append(curve(single, "roll_angle_deg", "friction_coefficient", label, marker=True, group=group))
     shape = []
     first = tables["influence"][tables["influence"]["tooth"] == 1]
     for number, column in enumerate(file.gauges.columns):
         rows = first[first["gauge"] == number + 1]
-        across = rows["roll_angle_deg"].to_numpy()
-        for kind in ("normal", "friction"):
-            up = rows[f"{kind}_influence_um_m_per_N"].to_numpy()
-            label = f"influence on {column}" if kind == "normal" else ""
-            shape.append(Curve(across, up, label, group=number))
+        for kind, label in (("normal", f"influence on {column}"), ("friction", "")):
+            shape.append(curve(rows, "roll_angle_deg", f"{kind}_influence_um_m_per_N", label, group=number))
     angle = f"roll angle of a tooth of the {file.gauges.wheel} (deg)"
     return {
         "forces": (
@@ -347,6 +342,7 @@ EVALUATION = Evaluation(
     file=StrainGaugeFile,
     columns={"the calibration": (*CALIBRATION, STRAIN), "a recording": (*RECORDING, STRAIN)},
     run=run,
+    results=STRAIN_GAUGE,
     example={
         "schema": "mixedlub-strain-gauge/1",
         "title": "NASA gear noise rig",

@@ -10,9 +10,10 @@ import numpy as np
 import pandas as pd
 from pydantic import Field
 
-from mixedlub.evaluate.evaluation import CaseDraft, Curve, Evaluated, Evaluation, Panel, case_draft, check_surfaces
+from mixedlub.evaluate.evaluation import CaseDraft, Evaluated, Evaluation, Panel, case_draft, check_surfaces
 from mixedlub.evaluate.outlying import check_repeats
-from mixedlub.evaluate.uncertainty import Errors, combined, ends_of, interval
+from mixedlub.evaluate.result_columns import TWO_DISC
+from mixedlub.evaluate.uncertainty import Errors, combined, interval
 from mixedlub.kinds import columns
 from mixedlub.kinds.disc import reduced_radius
 from mixedlub.laws import film
@@ -24,6 +25,7 @@ from mixedlub.laws.contact import (
     reduced_modulus,
 )
 from mixedlub.recording.set_points import near_values
+from mixedlub.schema.result import curve
 from mixedlub.schema.section import Number, Section, key
 from mixedlub.schema.system_file import Contact, RigFile
 from mixedlub.schema.table import RUN, Column, Table, read_table
@@ -261,10 +263,8 @@ def _figures(
         curves = []
         for _, own in (one for one in swept if one[0] == name):
             rows = frame.iloc[own].sort_values(name)
-            y, low, high = (rows[c].to_numpy() for c in ends_of("friction_coefficient"))
             pair = str(pairs[own[0]])
-            x = rows[name].to_numpy()
-            curves.append(Curve(x, y, pair, marker=True, low=low, high=high, group=group[pair]))
+            curves.append(curve(rows, name, "friction_coefficient", pair, marker=True, group=group[pair]))
         if curves:
             drawn.append(Panel(across, "friction coefficient (-)", tuple(curves)))
     return {"traction": tuple(drawn)} if drawn else {}
@@ -301,6 +301,7 @@ EVALUATION = Evaluation(
     file=TwoDiscFile,
     columns={"the readings": COLUMNS},
     run=run,
+    results=TWO_DISC,
     example={
         "schema": "mixedlub-two-disc/1",
         "title": "Two crowned discs",

@@ -56,12 +56,3 @@ def interval(
     """
     half = NORMAL_90 * np.sqrt(np.square(sd) + (wider**2 - 1.0) * np.square(own))
     return {name: value, f"{name}_sd": sd, f"{name}_low90": value - half, f"{name}_high90": value + half}
-
-
-def ends_of(name: str) -> tuple[str, str, str]:
-    """Columns of a value and of the ends of its 90 % interval.
-
-    >>> ends_of("mean_friction")
-    ('mean_friction', 'mean_friction_low90', 'mean_friction_high90')
-    """
-    return name, f"{name}_low90", f"{name}_high90"

@@ -64,7 +64,7 @@ class Origin:
 
     def _identity(self, folder: Path) -> dict[str, str]:
         """The input with its path relative to the result, so that both may be moved together."""
-        if not self.source.exists():  # the name of something that the package has
+        if not self.source.exists():  # the name of an input that the package has
             return {"source": self.source.as_posix(), "fingerprint": self.fingerprint}
         try:
             source = Path(os.path.relpath(self.source.resolve(), folder.resolve()))
@@ -73,9 +73,9 @@ class Origin:
         return {"source": source.as_posix(), "fingerprint": self.fingerprint}
 
 
-def origin_of(source: Path, names: Collection[str]) -> Origin:
-    """The origin of a folder of inputs, by the content of its named files."""
-    digest = hashlib.sha256()
+def origin_of(source: Path, names: Collection[str], *choices: object) -> Origin:
+    """The origin of a folder of inputs, by the content of its named files and what was chosen."""
+    digest = hashlib.sha256(repr(choices).encode() if choices else b"")
     for name in names:
         path = source / name
         content = path.read_bytes() if path.is_file() else b""
@@ -84,7 +84,7 @@ def origin_of(source: Path, names: Collection[str]) -> Origin:
 
 
 def origin_of_file(source: Path, *choices: object) -> Origin:
-    """A file as the origin of a result, or the name of something that the package has, with what was chosen besides."""
+    """The origin of one input: a file, or the name of an input that the package has, and what was chosen."""
     content = source.read_bytes() if source.is_file() else b""
     return Origin(source, hashlib.sha256(content + repr(choices).encode()).hexdigest())
 

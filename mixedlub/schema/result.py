@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-    from mixedlub.schema.table_files import LongTable
-
 _END = re.compile(r"_(sd|low90|high90)(_own)?$")
 """Ends of the names of columns that say how sure another column is."""
 _ANY = re.compile(r"[A-Z]{4,}")
@@ -103,7 +101,8 @@ def frame_of(found: Any, columns: Iterable[ResultColumn], shape: tuple[int, ...]
 
 def declared(columns: Iterable[ResultColumn], name: str) -> ResultColumn:
     """The declaration of a column of a table; of one that has none, its name with the unit in it."""
-    return next((replace(one, name=name) for one in columns if one.declares(name)), ResultColumn("", name, ""))
+    found = next((one for one in columns if one.declares(name)), ResultColumn("", name, ""))
+    return replace(found, name=name)
 
 
 @dataclass(frozen=True)
@@ -152,13 +151,13 @@ class CaseDraft:
 
 @dataclass(frozen=True)
 class Result:
-    """Tables by the name of their file, figures by theirs, lines for the user, and a case.
+    """Tables by the name of their file (frames or `LongTable`), figures by theirs, lines for the user, and a case.
 
     ``files`` are further files by name, as friction laws for studies; ``columns`` describes the columns by table.
     """
 
     title: str
-    tables: Mapping[str, pd.DataFrame | LongTable]
+    tables: Mapping[str, Any]
     figures: Mapping[str, Drawing]
     lines: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()

@@ -9,7 +9,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -70,9 +70,8 @@ def write_frame(
     import pyarrow as pa
     import pyarrow.parquet as pq
 
-    _escaped(table).to_csv(
-        csv, index=False, lineterminator="\n", sep=style.separator, decimal=style.decimal, float_format=DIGITS
-    )
+    sep, decimal = style.separator, style.decimal
+    _escaped(table).to_csv(csv, index=False, lineterminator="\n", sep=sep, decimal=decimal, float_format=DIGITS)
     mixed = [name for name in table.columns if table[name].dtype == object and table[name].map(type).nunique() > 1]
     arrow = pa.Table.from_pandas(table.astype(dict.fromkeys(mixed, str)), preserve_index=False)
     pq.write_table(arrow.cast(_described(arrow.schema, columns, {"title": title})), parquet)
@@ -86,7 +85,7 @@ def write_long(
 
     waiting: deque[Future[pa.Buffer]] = deque()
     with ExitStack() as files, ThreadPoolExecutor(THREADS) as pool:
-        text = files.enter_context(csv.open("wb")) if table.csv else None
+        text: BinaryIO | None = files.enter_context(csv.open("wb")) if table.csv else None
         writer: pq.ParquetWriter | None = None
         for piece in table.pieces():
             if text is not None:
@@ -97,8 +96,8 @@ def write_long(
             writer.write_table(piece)
             while text is not None and len(waiting) > THREADS:
                 text.write(waiting.popleft().result())
-        if text is not None:
-            text.writelines(part.result() for part in waiting)
+        while text is not None and waiting:
+            text.write(waiting.popleft().result())
 
 
 def write_workbook(

@@ -6,9 +6,9 @@ import os
 import shlex
 import subprocess
 import sys
+from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
-import pandas as pd
 import pytest
 
 from mixedlub.cli import COMMANDS, main
@@ -63,7 +63,7 @@ def test_version_is_printed(capsys):
 
 
 def lines_of(example):
-    return [shlex.split(line) for line in example.splitlines()]
+    return [shlex.split(line) for line in example.split("&&")]
 
 
 LONG = ("condense",)
@@ -223,18 +223,32 @@ def test_study_again_replaces_its_results_and_keeps_other_files(study, tmp_path)
     assert (tmp_path / "here" / "mine.txt").read_text() == "kept"
 
 
-def test_a_page_that_fails_leaves_the_tables(study, tmp_path, monkeypatch, capsys):
-    main(["study", str(study), "--no-figures", "--out", "here"])
-    study.write_text(STUDY.replace("[50, 150]", "[50]"))
-
-    def broken(*arguments, **options):
-        raise RuntimeError("no page today")
+def test_a_failed_page_leaves_the_tables(study, tmp_path, monkeypatch, capsys):
+    def broken(*arguments, **named):
+        (arguments[1] / "index.html").write_text("half")
+        raise BrokenProcessPool("a child process terminated abruptly")
 
     monkeypatch.setattr("mixedlub.report.page.write_page", broken)
     assert main(["study", str(study), "--out", "here"]) == 1
-    assert "no page today" in capsys.readouterr().err
-    assert set(pd.read_csv(tmp_path / "here" / "results.csv").torque_Nm) == {50}
+    (said,) = (line for line in capsys.readouterr().err.splitlines() if line.startswith("mixedlub:"))
+    assert "memory ran out" in said
+    assert "unexpected" not in said
+    assert {"results.csv", "results.parquet", "study.toml"} <= {p.name for p in (tmp_path / "here").iterdir()}
     assert not (tmp_path / "here" / "index.html").exists()
+
+
+def test_a_run_that_fails_before_its_tables_leaves_earlier_results_alone(study, tmp_path, monkeypatch):
+    main(["study", str(study), "--no-figures", "--out", "here"])
+    before = {p.name: p.read_bytes() for p in (tmp_path / "here").iterdir()}
+    study.write_text(STUDY.replace("[50, 150]", "[50]"))
+
+    def broken(*arguments, **named):
+        raise RuntimeError("no table today")
+
+    monkeypatch.setattr("mixedlub.commands.deliver.write_long", broken)
+    assert main(["study", str(study), "--out", "here"]) == 1
+    (tmp_path / "here" / "mixedlub-error.log").unlink()
+    assert {p.name: p.read_bytes() for p in (tmp_path / "here").iterdir()} == before
 
 
 def test_unexpected_error_is_one_line_and_names_its_log(study, tmp_path, monkeypatch, capsys):

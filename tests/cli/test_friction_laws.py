@@ -83,7 +83,7 @@ def test_the_comparison_writes_tables_with_units_and_three_figures(study, tmp_pa
     assert main(["friction-laws", *words]) == 0
     assert "doleschel is left out: give film_friction" in capsys.readouterr().err
     for name in ("friction_along_path", "friction_over_ratio", "friction_of_mesh"):
-        assert (out / f"{name}.svg").read_text(encoding="utf-8").startswith("<svg")
+        assert (out / "figures" / f"{name}.svg").read_text(encoding="utf-8").startswith("<svg")
     path, ratio, mesh = (pd.read_csv(out / f"{n}.csv") for n in ("along_path", "over_slide_roll_ratio", "mesh"))
     assert {"arana", "misharin", "schlenk"} <= set(path["law"])
     assert "doleschel" not in set(path["law"])
@@ -91,7 +91,9 @@ def test_the_comparison_writes_tables_with_units_and_three_figures(study, tmp_pa
     assert {"sliding_speed_m_s", "hertz_pressure_MPa", "validity"} <= set(path.columns)
     assert ratio["slide_roll_ratio"].agg(["min", "max"]).tolist() == [0.0, 2.0]
     assert len(mesh) == mesh["law"].nunique() * 4
-    assert (out / "captions.txt").read_text(encoding="utf-8").count("183.4 N m, 2165 rpm, oil at 90 °C") == 3
+    assert (out / "figures" / "captions.txt").read_text(encoding="utf-8").count(
+        "183.4 N m, 2165 rpm, oil at 90 °C"
+    ) == 3
 
     of_bk = path[path["law"] == "benedict_kelley"]
     at_pitch = of_bk[of_bk["sliding_speed_m_s"] == 0.0]
@@ -108,7 +110,8 @@ def test_the_comparison_writes_tables_with_units_and_three_figures(study, tmp_pa
 def test_figures_are_grey_outside_the_range_of_a_law(study):
     comparison = compared(read_study(study), {})
     path = comparison.along_path()
-    drawn = next(iter(figures(comparison, path, path.head(0), path.head(0)))).figure
+    made, _ = figures(comparison, path, path.head(0), path.head(0))
+    drawn = made["friction_along_path"]()
     (panel,) = (p for p in drawn.axes if p.get_title() == "Misharin")
     shown = {line.get_color(): np.isfinite(line.get_ydata()) for line in panel.lines}
     validity = path[path["law"] == "misharin"]["validity"].to_numpy()

@@ -53,19 +53,6 @@ def test_default_folder_is_named_after_command_and_input(tmp_path, monkeypatch):
     assert output_folder(None, "study", "mine").resolve() == tmp_path / "out" / "study" / "mine"
 
 
-def test_a_default_folder_with_a_result_is_said_to_be_replaced(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    folder = output_folder(None, "study", "mine")
-    (folder / ".parts-1").mkdir()
-    output_folder(None, "study", "mine")
-    assert capsys.readouterr().err == ""
-    (folder / "results.csv").write_text("")
-    output_folder(folder, "study", "mine")
-    assert capsys.readouterr().err == ""
-    output_folder(None, "study", "mine")
-    assert "the result in out/study/mine, maybe of another input of that name, is replaced" in capsys.readouterr().err
-
-
 def test_folder_that_cannot_be_is_bad_input(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(InputError, match="--out"):

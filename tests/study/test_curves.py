@@ -7,6 +7,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from mixedlub.cli import main
+from mixedlub.schema.table_files import write_long
 from mixedlub.study import curves, read_study, run_study
 
 
@@ -22,7 +23,7 @@ def path(write_study):
 def test_curves_add_up_to_the_loss_of_every_condition(path, tmp_path):
     """Friction times load times sliding speed, summed from the table alone."""
     study = read_study(path)
-    curves.write_curves(study, tmp_path / "c.csv", tmp_path / "c.parquet")
+    write_long(curves.curve_table(study), curves.curve_columns(), tmp_path / "c.csv", tmp_path / "c.parquet")
     points = pq.read_table(tmp_path / "c.parquet").to_pandas()
     assert len(points) == study.conditions * study.plan.points
     points["loss_W"] = (
@@ -72,7 +73,14 @@ def test_curves_of_an_earlier_state_are_called_so(write_study, tmp_path, capsys)
     out = tmp_path / "o"
     assert run(write_study(), out, "--curves") == 0
     assert run(write_study(boundary_friction=0.08), out) == 0
-    assert "curves.parquet is of another state of the study" in " ".join(capsys.readouterr().err.split())
+    assert "curves.csv and curves.parquet in" in " ".join(capsys.readouterr().err.split())
+
+
+def test_long_curves_are_parquet_alone(path, tmp_path, monkeypatch):
+    monkeypatch.setattr(curves, "MOST_CSV_ROWS", 100)
+    assert run(path, tmp_path / "o", "--curves") == 0
+    assert (tmp_path / "o" / "curves.parquet").exists()
+    assert not (tmp_path / "o" / "curves.csv").exists()
 
 
 def test_too_many_points_are_refused_before_anything_is_written(path, tmp_path, capsys, monkeypatch):

@@ -172,17 +172,12 @@ def test_the_command_writes_tables_and_figures(write_factors, tmp_path, capsys, 
     assert main(["factors", str(path), "--out", str(tmp_path / "o")]) == 0
     assert "% of all conditions are outside the model's range" in capsys.readouterr().err
     files = {file.name for file in (tmp_path / "o").iterdir()}
-    both = {
-        "indices.csv",
-        "main_effects.csv",
-        "indices.svg",
-        "main_effects.svg",
-        "captions.txt",
-        "factors.toml",
-        "study.toml",
-        "origin.json",
-    }
-    assert files == both | ({"runs.csv"} if design else {"results.csv", "interactions.csv", "interactions.svg"})
+    tables = {"indices", "main_effects"} | ({"runs"} if design else {"results", "interactions"})
+    both = {f"{table}.{ending}" for table in tables for ending in ("csv", "parquet")}
+    assert files == both | {"figures", "factors.toml", "study.toml", "origin.json"}
+    figures = {file.name for file in (tmp_path / "o" / "figures").iterdir()}
+    drawn = {"indices.svg", "main_effects.svg", "captions.txt"}
+    assert figures == drawn | (set() if design else {"interactions.svg"})
     assert tomllib.loads((tmp_path / "o" / "factors.toml").read_text())["study"] == "base.toml"
 
 

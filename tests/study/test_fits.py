@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from mixedlub.cli import main
+from mixedlub.schema.table_files import write_long
 from mixedlub.study import read_study, run_study
-from mixedlub.study.fits import can_be_fitted, fit_columns, fits, straight_line, write_fits
+from mixedlub.study.fits import can_be_fitted, fit_columns, fits, fits_table, straight_line
 
 
 def test_a_known_line_is_found_and_its_square_is_that_of_the_correlation():
@@ -22,7 +23,7 @@ def test_a_known_line_is_found_and_its_square_is_that_of_the_correlation():
 
 def test_every_condition_has_its_line(write_study, tmp_path):
     results = run_study(read_study(write_study()))
-    write_fits(results, tmp_path / "fits.csv")
+    write_long(fits_table(results), fit_columns(), tmp_path / "fits.csv", tmp_path / "fits.parquet")
     with (tmp_path / "fits.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
     assert list(rows[0]) == [c.name for c in fit_columns()]
