@@ -160,7 +160,7 @@ class Lubricant(Section):
         "pressure-viscosity coefficient there; linear between and beyond", None, example=[18.0, 14.0]
     )
     known_pressure_viscosity: KnownCoefficient | None = key(
-        "in place of both: a coefficient known at one temperature, and its way to others",
+        "instead of both: a coefficient known at one temperature, and its way to others",
         None,
         example={"coefficient_per_GPa": 14.2, "temperature_C": 54.0, "carried": "roelands"},
         alternative=True,
