@@ -192,8 +192,8 @@ def _checked(area: HeightMap) -> np.ndarray:
     missing = int(np.count_nonzero(~np.isfinite(area.heights)))
     if missing > MOST_HOLES * area.heights.size:
         rule = (
-            f"has holes: {missing} of {area.heights.size} points have no height, more than {100 * MOST_HOLES:g} %. Fill "
-            "them in the instrument's software, cut the map to a part without, or give traces"
+            f"has holes: {missing} of {area.heights.size} points have no height, more than {100 * MOST_HOLES:g} %. "
+            "Fill them in the instrument's software, cut the map to a part without, or give traces"
         )
         raise InputError(rule, where=f"map {area.name!r}")
     if min(area.heights.shape) < FEWEST:

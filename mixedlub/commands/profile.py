@@ -140,9 +140,8 @@ def command(
     with writing(folder) as aside:
         (aside / "profile.json").write_text(json.dumps(records, indent=1) + "\n", encoding="utf-8")
         if figures:
-            _draw(
-                aside / "figures", [_stem(file) for file in files], traces, [profile for *_, profile, _ in done], records
-            )
+            names, profiles = [_stem(file) for file in files], [profile for *_, profile, _ in done]
+            _draw(aside / "figures", names, traces, profiles, records)
     if not figures and (folder / "figures").exists():
         note(f"{folder / 'figures'} is of an earlier run; without --no-figures it is drawn anew")
     echo(f"details in {folder / 'profile.json'}" + (f", figures in {folder / 'figures'}" if figures else ""))

@@ -17,7 +17,7 @@ from mixedlub.importers.header import header_of
 from mixedlub.schema.table import LARGEST, are_numbers, csv_rows, is_missing, is_number
 from mixedlub.schema.units import words_of
 from profiles.errors import InputError, nearest
-from profiles.units import number as number_in
+from profiles.units import number_of
 
 SEPARATORS = "\t;,"
 UNIT = r"[(\[](?:[^()\[\]]|/\s*\([^()\[\]]*\))*[)\]]"
@@ -30,7 +30,8 @@ WORDS = re.compile(r"\S+(?:\s\S+)*")
 def rows_of(numbered: Sequence[tuple[int, str]], name: str) -> list[Line]:
     """The cells of numbered lines, separated by blanks only where no separator gives as many rows of numbers."""
     separator = max(SEPARATORS, key=lambda mark: _regularity([line.count(mark) for _, line in numbered]))
-    marked = [(number, [cell.strip() for cell in row]) for number, row in csv_rows(numbered, name, separator)]
+    found = csv_rows(numbered, name, separator, headings=True)
+    marked = [(number, [cell.strip() for cell in row]) for number, row in found]
     if not any(_tally(line.split())[0] for _, line in numbered if len(line.split(None, 1)) > 1):
         return marked
     blank = _by_blanks(numbered)
@@ -336,7 +337,7 @@ def joined_runs(parts: Sequence[tuple[str, np.ndarray | None]]) -> tuple[np.ndar
 
 def _whole(cell: str) -> int | None:
     try:
-        value = number_in(cell)
+        value = number_of(cell)
     except ValueError:
         return None
     return int(value) if abs(value) < LARGEST and value == int(value) else None

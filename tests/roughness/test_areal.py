@@ -132,7 +132,10 @@ def test_holes_of_a_map_are_left_out_of_its_moments():
 @pytest.mark.parametrize(
     ("spoil", "rule"),
     [
-        (lambda z: np.where(np.arange(z.size).reshape(z.shape) % 4 == 0, np.nan, z), "1024 of 4096 points have no height"),
+        (
+            lambda z: np.where(np.indices(z.shape)[1] % 4 == 0, np.nan, z),
+            "1024 of 4096 points have no height",
+        ),
         (lambda z: np.zeros_like(z), "flat"),
         (lambda z: z[:8], "at least 16 rows"),
     ],
