@@ -221,7 +221,7 @@ def test_blanks_within_cells_part_nothing_where_a_mark_does(text):
 def test_a_quoted_cell_over_two_lines_is_kept_and_an_open_quote_is_refused():
     rows = 'speed_rpm,surface,friction\n100,polished,0.05\n200,"ground\na",0.04\n300,honed,0.03\n'
     assert read_sheet(rows, "rig.csv").cells["surface"] == ["polished", "ground a", "honed"]
-    with pytest.raises(InputError, match="line 3: .*a quoted cell must end in its line"):
+    with pytest.raises(InputError, match=r"line 3: .*a quoted cell must end in its line"):
         read_sheet(rows.replace('a"', "a"), "rig.csv")
 
 

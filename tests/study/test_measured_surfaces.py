@@ -163,7 +163,7 @@ def test_a_few_holes_of_a_map_are_left_out_and_said(area_file, write_study, tmp_
     assert any(note.code == "trace_quality" and "400 of 250000" in note.text for note in found.notes)
     whole = read_study(write_study(surfaces={"a": {"map": area_file.name}})).surfaces["a"]
     for name in ("m0", "m2", "m4", "m2_along", "m4_along"):
-        assert getattr(found.surfaces["a"], name) == pytest.approx(getattr(whole, name), rel=0.02)
+        assert getattr(found.surfaces["a"], name) == pytest.approx(getattr(whole, name), rel=0.03)
     bands = write_study(surfaces={"a": {"map": "holed.x3p"}}, options={"heights": "measured", "bands": "both"})
     assert np.isfinite(run_study(read_study(bands))["highest_power_loss"]).all()
 
