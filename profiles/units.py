@@ -46,12 +46,12 @@ def known_unit(word: str) -> str | None:
     return plain if plain in METRES else None
 
 
-def number(text: str) -> float:
+def number_of(text: str) -> float:
     """The number in a text; unlike in Python a stroke between digits is none.
 
-    >>> number(" 17.49 ")
+    >>> number_of(" 17.49 ")
     17.49
-    >>> number("1_7.49")
+    >>> number_of("1_7.49")
     Traceback (most recent call last):
     ...
     ValueError: not a number: '1_7.49'
@@ -96,7 +96,7 @@ def length(value: float | str, where: str) -> float:
         if not match:
             raise InputError("a length is a number and a unit, as in '0.5 um'", where=where, value=value)
         try:
-            size = number(match[1])
+            size = number_of(match[1])
         except ValueError:
             raise InputError("not a number", where=where, value=match[1]) from None
         value = size * metres(match[2], where)

@@ -16,7 +16,7 @@ from mixedlub.schema.findings import Finding, finding, listed, report
 from mixedlub.schema.ranges import probable_unit
 from mixedlub.schema.units import fits, read_as, split, unit_of, words_of
 from profiles.errors import InputError, nearest, refuse_no_file
-from profiles.units import number
+from profiles.units import number_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -58,7 +58,7 @@ class Column:
         if self.optional_cells and is_missing(text):
             return float("nan")
         try:
-            value = number(text)
+            value = number_of(text)
         except ValueError:
             raise InputError(f"{self.name} must be a number", where=where, value=text) from None
         if not np.isfinite(value):
@@ -82,7 +82,7 @@ class Column:
             if self.dtype == "name":
                 names = {cell: self.parse(cell, self.name) for cell in set(cells)}
                 return np.array([names[cell] for cell in cells])
-            values = np.fromiter(map(number, cells), float, len(cells))
+            values = np.fromiter(map(number_of, cells), float, len(cells))
         except ValueError:
             return None
         allowed = (values > self.above) & (values >= self.at_least) & (values <= self.at_most) & np.isfinite(values)
@@ -159,7 +159,7 @@ def is_missing(cell: str) -> bool:
 def is_number(cell: str) -> bool:
     """Whether a cell can be read as a number."""
     try:
-        number(cell)
+        number_of(cell)
     except ValueError:
         return False
     return True
@@ -230,8 +230,12 @@ def read_table(
     return replace(found, columns={RUN.name: runs, **found.columns})
 
 
-def csv_rows(numbered: Sequence[tuple[int, str]], where: str, separator: str = ",") -> Iterator[tuple[int, list[str]]]:
+def csv_rows(
+    numbered: Sequence[tuple[int, str]], where: str, separator: str = ",", *, headings: bool = False
+) -> Iterator[tuple[int, list[str]]]:
     """The cells of numbered lines; an error on a quoted cell that runs on into the next line.
+
+    With ``headings`` a cell of words may run on, as in the headings of spreadsheets; a blank stands for the line end.
 
     >>> list(csv_rows([(3, 'a,"b, c"')], "t.csv"))
     [(3, ['a', 'b, c'])]
@@ -242,12 +246,12 @@ def csv_rows(numbered: Sequence[tuple[int, str]], where: str, separator: str = "
     """
     reader, first = csv.reader((f"{line}\n" for _, line in numbered), delimiter=separator), 0
     for row in reader:
-        number_of_line = numbered[first][0]
-        broken = next((cell for cell in row if "\n" in cell), None)
-        if broken is not None:
-            place = f"{where}: line {number_of_line}"
-            raise InputError("a quoted cell must end in its line", where=place, value=" ".join(broken.split()))
-        yield number_of_line, row
+        number = numbered[first][0]
+        broken = [cell for cell in row if "\n" in cell and not (headings and separator not in cell)]
+        if broken:
+            rule = "a quoted cell must end in its line"
+            raise InputError(rule, where=f"{where}: line {number}", value=" ".join(broken[0].split()))
+        yield number, [cell.replace("\n", " ") for cell in row] if headings else row
         first = reader.line_num
 
 
@@ -408,12 +412,12 @@ def _parse(
             return {name: values for name, values in found.items() if values is not None}
     # A cell is empty or invalid: parse cell by cell, so that the error names the first one.
     cells: dict[str, list[float | int | str]] = {name: [] for name in header if name in known}
-    for line, row in lines[1:]:
+    for number, row in lines[1:]:
         if len(row) != len(header):
             raise InputError(
-                f"has {len(row)} cells where the header has {len(header)}", where=f"{where}: {unit} {line}"
+                f"has {len(row)} cells where the header has {len(header)}", where=f"{where}: {unit} {number}"
             )
         for name, cell in zip(header, row, strict=True):
             if name in known:
-                cells[name].append(known[name].parse(cell, f"{where}: {unit} {line}, {name}"))
+                cells[name].append(known[name].parse(cell, f"{where}: {unit} {number}, {name}"))
     return {name: np.array(values) for name, values in cells.items()}

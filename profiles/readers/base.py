@@ -47,9 +47,10 @@ class HoldsMap(InputError):
 
     def __init__(self, where: str, shape: tuple[int, ...]) -> None:
         file = PurePath(where).name
+        size = " x ".join(map(str, shape))
         rule = (
-            f'holds an areal map of {" x ".join(map(str, shape))} points, not a profile: name it as map = "{file}" of '
-            f'a surface in a study or case, or cut a trace by profiles.image.along_direction(read_map("{file}"), angle)'
+            f'holds an areal map of {size} points, not a profile: name it as map = "{file}" of a surface in a study '
+            f'or case, or cut a trace by profiles.image.along_direction(read_map("{file}"), angle)'
         )
         super().__init__(rule, where=where)
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from profiles.errors import InputError
 from profiles.readers.base import MAX_POINTS
-from profiles.units import known_unit, number
+from profiles.units import known_unit, number_of
 
 _NUMBER = re.compile(r"[-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d+)?\Z")
 _ABSENT = re.compile(r"[-+]?(?:nan|inf|infinity|n/a|na|null|none|-+|\*+|#n/a|bad)\Z", re.IGNORECASE)
@@ -187,7 +187,7 @@ def _counted(lines: list[str], start: int) -> Counted | None:
 
 
 def _value(word: str) -> float:
-    return number(word.replace(",", "."))
+    return number_of(word.replace(",", "."))
 
 
 def _is_no_height(word: str, below: list[str]) -> bool:
@@ -232,7 +232,7 @@ def _row(line: str, delimiter: str | None, width: int, where: str) -> list[float
         is_height = place > 0 or width == 1
         missing = is_height and (not cell or (_ABSENT.match(cell) and "inf" not in cell.lower()))
         try:
-            values.append(math.nan if missing else number(cell))
+            values.append(math.nan if missing else number_of(cell))
         except ValueError:
             raise InputError("not a number", where=where, value=cell) from None
         if not missing and not math.isfinite(values[-1]):

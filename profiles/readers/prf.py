@@ -7,7 +7,7 @@ import numpy as np
 from profiles.errors import InputError
 from profiles.profile import Profile
 from profiles.readers.base import Source, checked_count, make_profile
-from profiles.units import known_length, metres, number
+from profiles.units import known_length, metres, number_of
 
 
 class PrfReader:
@@ -43,10 +43,10 @@ class PrfReader:
         if len(parts) == 3:
             raise InputError("cut off: the heights do not end with EOR", where=where)
         try:
-            count = round(number(lines["CZ"][2]))
-            scale = number(lines["CZ"][4]) * metres(lines["CZ"][3], f"{where}: CZ")
-            spacing = number(spacing_line[2]) * number(lines["CX"][4]) * metres(lines["CX"][3], f"{where}: CX")
-            heights = np.array([number(words[0]) for words in parts[2]])
+            count = round(number_of(lines["CZ"][2]))
+            scale = number_of(lines["CZ"][4]) * metres(lines["CZ"][3], f"{where}: CZ")
+            spacing = number_of(spacing_line[2]) * number_of(lines["CX"][4]) * metres(lines["CX"][3], f"{where}: CX")
+            heights = np.array([number_of(words[0]) for words in parts[2]])
         except (ValueError, OverflowError) as error:
             if isinstance(error, InputError):
                 raise

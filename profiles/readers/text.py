@@ -13,7 +13,7 @@ from profiles.readers.base import Source, bridged, make_profile
 from profiles.readers.numbers import Counted, Table, decoded, split, table
 from profiles.readers.plausible import Units, doubt, inferred_note, inferred_units
 from profiles.readers.positions import RESAMPLED, Sampled, sampled
-from profiles.units import METRES, known_unit, length, metres, number
+from profiles.units import METRES, known_unit, length, metres, number_of
 
 _LAST_WORD = re.compile(r"([\[(/_ ])\s*([^\s\[\]()/_]+)\s*[\])]?\s*\Z")
 _MARKS = {"a": "[(", "in": "[(/", "m": "[(/_"}
@@ -192,7 +192,7 @@ def _results(content: Table, unit: float, origin: dict[str, object]) -> tuple[st
         name, bracketed, digits, behind = match.groups()
         named = known_unit(bracketed or behind or "")
         try:
-            value = number(digits if content.delimiter == "," else digits.replace(",", "."))
+            value = number_of(digits if content.delimiter == "," else digits.replace(",", "."))
         except ValueError:
             continue
         size = metres(named) if named else unit if name[1:] and name[1:] in _HEIGHTS_STATED else 1.0

@@ -133,7 +133,7 @@ def test_holes_of_a_map_are_left_out_of_its_moments():
     ("spoil", "rule"),
     [
         (
-            lambda z: np.where(np.arange(z.size).reshape(z.shape) % 4 == 0, np.nan, z),
+            lambda z: np.where(np.indices(z.shape)[1] % 4 == 0, np.nan, z),
             "1024 of 4096 points have no height",
         ),
         (lambda z: np.zeros_like(z), "flat"),

@@ -316,10 +316,8 @@ def test_every_file_that_cannot_be_read_is_named_at_once(tmp_path, capsys):
 
 def test_a_trace_that_cannot_be_evaluated_stops_no_other(tmp_path, capsys):
     (tmp_path / "flat.csv").write_text("x_um,z_um\n" + "".join(f"{i * 0.5},0.1\n" for i in range(400)))
-    out = tmp_path / "o"
-    assert (
-        main(["profile", str(tmp_path / "flat.csv"), str(TRACES / "0258.txt"), "--no-figures", "--out", str(out)]) == 2
-    )
+    out, files = tmp_path / "o", [str(tmp_path / "flat.csv"), str(TRACES / "0258.txt")]
+    assert main(["profile", *files, "--no-figures", "--out", str(out)]) == 2
     assert len(json.loads((out / "profile.json").read_text())) == 1
     assert f"{tmp_path / 'flat.csv'}: " in capsys.readouterr().err
 

@@ -144,16 +144,27 @@ def test_heights_and_bands_of_a_map_are_those_of_the_whole(area_file, write_stud
     assert (own["power_loss"] < own["highest_power_loss"]).all()
 
 
-def test_a_map_with_holes_is_refused(area_file, write_study, tmp_path):
+@pytest.mark.parametrize(("rows", "refused"), [(2, False), (300, True)])
+def test_a_few_holes_of_a_map_are_left_out_and_said(area_file, write_study, tmp_path, rows, refused):
     import x3pio
 
     from profiles.image import read_map
 
     holed = np.array(read_map(area_file).heights)
-    holed[10:12, 30] = np.nan
+    holed[10 : 10 + rows, 30:230] = np.nan
     x3pio.write(tmp_path / "holed.x3p", holed, x_scale=STEP, y_scale=STEP)
-    with pytest.raises(InputError, match=r"surfaces\.a.*2 of 250000 points have no height"):
-        read_study(write_study(surfaces={"a": {"map": "holed.x3p"}}))
+    study = write_study(surfaces={"a": {"map": "holed.x3p"}})
+    if refused:
+        with pytest.raises(InputError, match=r"surfaces\.a.*60000 of 250000 points have no height"):
+            read_study(study)
+        return
+    found = read_study(study)
+    assert any(note.code == "trace_quality" and "400 of 250000" in note.text for note in found.notes)
+    whole = read_study(write_study(surfaces={"a": {"map": area_file.name}})).surfaces["a"]
+    for name in ("m0", "m2", "m4", "m2_along", "m4_along"):
+        assert getattr(found.surfaces["a"], name) == pytest.approx(getattr(whole, name), rel=0.03)
+    bands = write_study(surfaces={"a": {"map": "holed.x3p"}}, options={"heights": "measured", "bands": "both"})
+    assert np.isfinite(run_study(read_study(bands))["highest_power_loss"]).all()
 
 
 def test_a_lay_of_one_surface_of_two_is_refused(write_study):
