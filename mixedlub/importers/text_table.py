@@ -19,7 +19,7 @@ from mixedlub.schema.table import LARGEST, are_numbers, csv_rows, is_missing, is
 from mixedlub.schema.units import words_of
 from profiles.errors import InputError, nearest
 from profiles.readers.workbook import UNCALCULATED
-from profiles.units import number as number_in
+from profiles.units import number_of
 
 SEPARATORS = "\t;,"
 UNIT = r"[(\[](?:[^()\[\]]|/\s*\([^()\[\]]*\))*[)\]]"
@@ -32,7 +32,7 @@ WORDS = re.compile(r"\S+(?:\s\S+)*")
 def rows_of(numbered: Sequence[tuple[int, str]], name: str, separator: str = "") -> list[Line]:
     """The cells of numbered lines, separated by blanks only where no separator gives as many rows of numbers."""
     mark = separator or max(SEPARATORS, key=lambda mark: _regularity([line.count(mark) for _, line in numbered]))
-    marked = [(number, [cell.strip() for cell in row]) for number, row in csv_rows(numbered, name, mark)]
+    marked = [(number, [cell.strip() for cell in row]) for number, row in csv_rows(numbered, name, mark, headings=True)]
     if separator or not any(_tally(line.split())[0] for _, line in numbered if len(line.split(None, 1)) > 1):
         return marked
     blank = _by_blanks(numbered)
@@ -368,7 +368,7 @@ def joined_runs(parts: Sequence[tuple[str, np.ndarray | None]]) -> tuple[np.ndar
 
 def _whole(cell: str) -> int | None:
     try:
-        value = number_in(cell)
+        value = number_of(cell)
     except ValueError:
         return None
     return int(value) if abs(value) < LARGEST and value == int(value) else None
