@@ -40,7 +40,7 @@ def evaluated(tmp_path):
     """The row of one file, through the command line."""
 
     def run(file, *options):
-        assert main(["profile", str(file), "--no-figures", "--out", str(tmp_path), *options]) == 0
+        assert main(["profile", str(file), "--no-figures", "--replace", "--out", str(tmp_path), *options]) == 0
         (row,) = json.loads((tmp_path / "profile.json").read_text())
         return row
 
@@ -257,6 +257,7 @@ def test_a_study_tells_of_inferred_units_and_an_overruled_step_is_told_by_the_co
     assert ("trace_quality", "surfaces.bare") in [(note.code, note.place) for note in found]
     out = str(tmp_path / "o")
     assert main(["profile", str(tmp_path / "bare.csv"), "--spacing", "0.3 um", "--no-figures", "--out", out]) == 0
+    out += "2"
     (tmp_path / "named.csv").write_text("x_mm,z_um\n" + rows)
     assert main(["profile", str(tmp_path / "named.csv"), "--spacing", "0.3 um", "--no-figures", "--out", out]) == 0
     assert "spacing: the file has a step of 0.25 um, taken as 0.3 um as told" in capsys.readouterr().err
