@@ -54,7 +54,7 @@ examples: .venv/dev
 	@touch $@
 
 .venv/base: pyproject.toml | .venv/pip
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[interactive]'
 	@touch $@
 
 .venv/dev: pyproject.toml | .venv/pip

@@ -10,6 +10,8 @@ name is retired over one minor release: it moves to `RETIRED`, where it still wo
 from __future__ import annotations
 
 from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
 
 PUBLIC = {
@@ -36,6 +38,12 @@ RETIRED: dict[str, str] = {}
 """Names on their way out, each with the public name that takes its place."""
 
 __all__ = [*PUBLIC, *ROOMS, *BESIDE]
+
+for _name in BESIDE:
+    _spec = find_spec(_name)
+    _origin = Path(_spec.origin) if _spec is not None and _spec.origin is not None else None
+    if _origin is not None and Path(__file__).parents[1] not in _origin.parents[1:2]:
+        raise ImportError(f"{_origin} hides the package {_name!r}, which mixedlub needs; rename this file or folder")
 
 
 def __getattr__(name: str) -> Any:

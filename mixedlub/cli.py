@@ -8,6 +8,7 @@ import re
 import sys
 import warnings
 from collections.abc import Sequence
+from textwrap import indent
 from typing import Annotated
 
 # Before NumPy is loaded: matrices are small here, and threads of BLAS would wait on those of the batch engine.
@@ -33,6 +34,7 @@ from mixedlub.commands import (
     parts,
     profile,
     prove,
+    schema,
     simulate,
     study,
 )
@@ -70,6 +72,7 @@ COMMANDS = (
     import_files,
     new,
     kinds,
+    schema,
     effects,
     friction_laws,
     parts,
@@ -116,7 +119,8 @@ def _about(
 
 
 for _module in COMMANDS:
-    app.command(_module.NAME, epilog=f"Example: {_module.EXAMPLE}")(_module.command)
+    # The mark keeps the lines of the example apart.
+    app.command(_module.NAME, epilog="\b\nExample:\n" + indent(_module.EXAMPLE, "  "))(_module.command)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

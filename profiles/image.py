@@ -12,7 +12,8 @@ import numpy as np
 from profiles.errors import InputError
 from profiles.profile import Profile
 from profiles.readers.archive import MAX_UNPACKED, check_archive, members
-from profiles.readers.base import MAX_POINTS, foreign_parser
+from profiles.readers.base import MAX_POINTS, Source, foreign_parser
+from profiles.readers.foreign import foreign
 
 MAX_PIXELS = 200_000_000
 
@@ -66,7 +67,8 @@ def read_map(path: str | os.PathLike[str]) -> HeightMap:
             spacings = (surface.header.x_scale, surface.header.y_scale)
             heights = np.asarray(surface.data, dtype=float)
     else:
-        raise InputError("height maps are read from x3p and SDF files", where=file.name)
+        known = foreign(Source(file.name, data), by_ending=True)
+        raise known or InputError("height maps are read from x3p and SDF files", where=file.name)
     if heights.ndim != 2 or min(heights.shape) < 2 or not all(spacings):
         raise InputError("holds no regular height map", where=file.name, value=heights.shape)
     return HeightMap(heights, float(spacings[0]), float(spacings[1]), file.stem)

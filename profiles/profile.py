@@ -42,7 +42,8 @@ class Profile:
 
     ``stated``: parameters the file prints beside its heights, by ISO symbol (``Rq``, ``Pq``), lengths in m,
     ratios in percent, the rest as printed; ``stated_short_cutoff``: the low-pass (m) they were taken after,
-    where the heights are stored before it; ``convention``: the convention they follow;
+    where the heights are stored before it; ``stated_filtered``: whether they are the roughness of heights that are
+    stored unfiltered; ``convention``: the convention they follow;
     ``sampling_lengths``: how many the instrument averaged over; ``tip_radius``: of the stylus (m).
 
     >>> p = Profile(np.array([0.0, 1e-6, 0.0]), 0.5e-6, name="peak")

@@ -15,6 +15,7 @@ from profiles.readers.archive import refuse_broken, unpacked
 from profiles.readers.base import MAX_BYTES, Reader, Source
 from profiles.readers.container import ZipReader
 from profiles.readers.dektak import DektakReader
+from profiles.readers.foreign import foreign
 from profiles.readers.hfm import HfmReader
 from profiles.readers.mitutoyo import MitutoyoReader
 from profiles.readers.nist_xml import NistXmlReader
@@ -31,6 +32,8 @@ from profiles.units import known_unit, length, metres
 
 NO_TEXTS = (".opdx", ".x3p", ".xlsx", ".zip")
 """Endings of formats that are known by their first bytes, whatever else is in them."""
+UNTOLD = (TextReader, ZipReader, type(None))
+"""Readers that take files of many kinds, and none: files of formats that are not read come to them."""
 
 
 def read(path: str | os.PathLike[str], *, unit: str | None = None, spacing: float | str | None = None) -> Profile:
@@ -53,10 +56,12 @@ def read_source(source: Source) -> Profile:
         rule = "the file is empty" if b"\x00" not in source.data else "the file holds nothing but zero bytes"
         raise InputError(rule, where=source.where)
     refuse_broken(source.data, source.where)
-    for reader in readers():
-        if reader.magic(source):
-            with _as_named(source, reader):
-                return reader.read(source)
+    reader = next((one for one in readers() if one.magic(source)), None)
+    if isinstance(reader, UNTOLD) and (known := foreign(source, by_ending=False)):
+        raise known
+    if reader is not None:
+        with _as_named(source, reader):
+            return reader.read(source)
     formats = "; ".join(reader.format for reader in readers())
     with _as_named(source):
         raise InputError(f"no known profile format; known are {formats}", where=source.where)
@@ -78,6 +83,9 @@ def _as_named(source: Source, reader: Reader | None = None) -> Iterator[None]:
     try:
         yield
     except InputError as error:
+        plain = isinstance(reader, TextReader) and error.rule != NO_NUMBERS and b"\x00" not in source.data
+        if isinstance(reader, UNTOLD) and not plain and (known := foreign(source, by_ending=True)):
+            raise known from None
         ending = PurePath(source.bare).suffix.lower()
         if ending not in NO_TEXTS or not (reader is None or isinstance(reader, TextReader)):
             raise

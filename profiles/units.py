@@ -46,6 +46,21 @@ def known_unit(word: str) -> str | None:
     return plain if plain in METRES else None
 
 
+def number_of(text: str) -> float:
+    """The number in a text; unlike in Python a stroke between digits is none.
+
+    >>> number_of(" 17.49 ")
+    17.49
+    >>> number_of("1_7.49")
+    Traceback (most recent call last):
+    ...
+    ValueError: not a number: '1_7.49'
+    """
+    if "_" in text:
+        raise ValueError(f"not a number: {text!r}")
+    return float(text)
+
+
 def metres(word: str, where: str = "unit") -> float:
     """How many metres the unit is.
 
@@ -81,10 +96,10 @@ def length(value: float | str, where: str) -> float:
         if not match:
             raise InputError("a length is a number and a unit, as in '0.5 um'", where=where, value=value)
         try:
-            number = float(match[1])
+            size = number_of(match[1])
         except ValueError:
             raise InputError("not a number", where=where, value=match[1]) from None
-        value = number * metres(match[2], where)
+        value = size * metres(match[2], where)
     if not (math.isfinite(value) and value > 0):
         raise InputError("must be a finite length above zero", where=where, value=value)
     return float(value)

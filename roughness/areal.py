@@ -13,14 +13,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from profiles import InputError
-from profiles.image import HeightMap
+from profiles import InputError, Profile
+from profiles.image import HeightMap, along_direction
 from roughness.moments import Moments
 
 SIGMA = math.sqrt(math.log(2.0) / math.pi) / math.sqrt(2.0 * math.pi)
 """Standard deviation of the Gaussian filter over its cut-off; ISO 16610-61."""
 FEWEST = 16
 """Fewest rows and columns of a map whose moments mean anything."""
+MOST_HOLES = 0.2
+"""Share of points without a height up to which a map is evaluated; differences across a hole are left out."""
 
 
 @dataclass(frozen=True)
@@ -71,6 +73,8 @@ class ArealMoments:
 def areal_moments(area: HeightMap) -> ArealMoments:
     """Moments of a levelled map by differences between neighbours; the heights are about their mean.
 
+    Differences in which a point without a height takes part are left out.
+
     On a wave of N points the differences lose as much as those of a trace do (`roughness.moments`).
 
     >>> y, x = np.mgrid[0:400, 0:400]
@@ -79,8 +83,8 @@ def areal_moments(area: HeightMap) -> ArealMoments:
     >>> round(math.degrees(m.across_lay), 2), round(m.profile(m.across_lay).m2 / (2 * np.pi * 1e-2) ** 2, 2)
     (53.13, 0.5)
     """
-    z, dx, dy = _without_holes(area), area.spacing_x, area.spacing_y
-    z = z - z.mean()
+    z, dx, dy = _checked(area), area.spacing_x, area.spacing_y
+    z = z - np.nanmean(z)
     xx, yy = np.diff(z, 2, axis=1) / dx**2, np.diff(z, 2, axis=0) / dy**2
     twist = (z[2:, 2:] - z[2:, :-2] - z[:-2, 2:] + z[:-2, :-2]) / (4.0 * dx * dy)
     rising, falling = z[1:, 1:] - z[:-1, :-1], z[:-1, 1:] - z[1:, :-1]
@@ -91,9 +95,9 @@ def areal_moments(area: HeightMap) -> ArealMoments:
         m11=(_mean_square(rising) - _mean_square(falling)) / (4.0 * dx * dy),
         m02=_mean_square(np.diff(z, axis=0)) / dy**2,
         m40=_mean_square(xx),
-        m31=float(np.mean(xx[1:-1] * twist)),
+        m31=float(np.nanmean(xx[1:-1] * twist)),
         m22=_mean_square(cells),
-        m13=float(np.mean(yy[:, 1:-1] * twist)),
+        m13=float(np.nanmean(yy[:, 1:-1] * twist)),
         m04=_mean_square(yy),
     )
     if min(found.m20, found.m02) <= 0.0:
@@ -114,7 +118,7 @@ def areal_roughness(
     >>> round(float(areal_roughness(tilted).heights.std() * 1e9), 1)
     50.0
     """
-    heights = _levelled(_without_holes(area), form)
+    heights = _levelled(_checked(area), form)
     if short_cutoff is not None:
         heights = _smoothed(heights, area, short_cutoff)
     if cutoff is not None:
@@ -154,10 +158,10 @@ def gaussian_scatter(area: HeightMap, *angles: float) -> np.ndarray:
     >>> gaussian_scatter(white, 0.0).round(3).tolist()   # sqrt(2/N) of N free heights
     [0.011, 0.014, 0.016]
     """
-    z = _without_holes(area)
+    z = _checked(area)
     rows, columns = (np.hanning(n + 2)[1:-1] for n in z.shape)
     window = np.outer(rows, columns)
-    power = np.abs(np.fft.fft2((z - z.mean()) * window)) ** 2
+    power = np.abs(np.fft.fft2(np.nan_to_num(z - np.nanmean(z)) * window)) ** 2
     y, x = (
         2.0 * np.sin(np.pi * np.fft.fftfreq(n)) / spacing
         for n, spacing in zip(z.shape, (area.spacing_y, area.spacing_x))
@@ -168,15 +172,28 @@ def gaussian_scatter(area: HeightMap, *angles: float) -> np.ndarray:
 
 
 def _mean_square(values: np.ndarray) -> float:
-    return float(np.mean(np.square(values)))
+    return float(np.nanmean(np.square(values)))
 
 
-def _without_holes(area: HeightMap) -> np.ndarray:
+def trace_across_lay(area: HeightMap) -> Profile:
+    """The longest trace through the middle of a map in the direction of its steepest slopes, across its lay.
+
+    >>> y, x = np.mgrid[0:40, 0:60]
+    >>> trace_across_lay(HeightMap(1e-7 * np.cos(x), 1e-6, 1e-6)).heights.size
+    60
+    """
+    angle = areal_moments(areal_roughness(area)).across_lay
+    trace = along_direction(area, angle)
+    said = f"across the lay of a map of {' x '.join(map(str, area.heights.shape))} points, at {math.degrees(angle):.3g}"
+    return replace(trace, steps=(*trace.steps, f"{said} degrees to its rows"))
+
+
+def _checked(area: HeightMap) -> np.ndarray:
     missing = int(np.count_nonzero(~np.isfinite(area.heights)))
-    if missing:
+    if missing > MOST_HOLES * area.heights.size:
         rule = (
-            f"has holes: {missing} of {area.heights.size} points have no height; slope and curvature there would be "
-            "made up. Fill them in the instrument's software, cut the map to a part without, or give traces"
+            f"has holes: {missing} of {area.heights.size} points have no height, more than {100 * MOST_HOLES:g} %. "
+            "Fill them in the instrument's software, cut the map to a part without, or give traces"
         )
         raise InputError(rule, where=f"map {area.name!r}")
     if min(area.heights.shape) < FEWEST:
@@ -194,7 +211,9 @@ def _levelled(heights: np.ndarray, form: str) -> np.ndarray:
     down = np.polynomial.legendre.legvander(y, degree)
     terms = [np.outer(down[:, i], across[:, j]) for i in range(degree + 1) for j in range(degree + 1 - i)]
     basis = np.array([term.ravel() for term in terms])
-    fitted = np.linalg.solve(basis @ basis.T, basis @ heights.ravel()) @ basis
+    there = np.isfinite(heights.ravel())
+    used = basis if there.all() else basis[:, there]
+    fitted = np.linalg.solve(used @ used.T, used @ heights.ravel()[there]) @ basis
     return heights - fitted.reshape(heights.shape)
 
 
@@ -214,7 +233,9 @@ def _smoothed(heights: np.ndarray, area: HeightMap, cutoff: float) -> np.ndarray
     sigma = (SIGMA * cutoff / area.spacing_y, SIGMA * cutoff / area.spacing_x)
 
     def low(values: np.ndarray) -> np.ndarray:
-        passed: np.ndarray = gaussian(values, sigma=sigma, mode="constant", preserve_range=True)
-        return passed
+        filtered: np.ndarray = gaussian(values, sigma=sigma, mode="constant", preserve_range=True)
+        return filtered
 
-    return low(heights) / low(np.ones_like(heights))
+    there = np.isfinite(heights)
+    passed = low(np.where(there, heights, 0.0)) / low(there.astype(float))
+    return passed if there.all() else np.where(there, passed, np.nan)

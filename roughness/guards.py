@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from profiles import Profile
+from roughness.clipping import clipping
 from roughness.defects import CUT
 from roughness.moments import Moments, moments
 from roughness.noise import height_quantum, noise_moments, tip_limited_wavelength
@@ -16,6 +17,7 @@ from roughness.prepare import primary_profile
 from roughness.probability import NormalProbability, extreme_limit
 
 _HEADER_TOLERANCE = 0.05
+_RESULT_TOLERANCE = 0.02
 _SAY = 0.05  # of m4, that one place or the height step may hold unsaid
 _COMPARED = ("a", "q", "z", "t", "p", "v")
 
@@ -51,8 +53,9 @@ def trace_warnings(profile: Profile, found: Moments, *, raw: Profile) -> list[st
     return [
         *_inferred(raw),
         *overruled(raw),
+        *_clipped(raw),
         *_cut(profile),
-        *_stated(raw),
+        *_stated(profile, raw),
         *_instrument(profile, found, raw),
         *_spikes(profile),
     ]
@@ -178,7 +181,7 @@ def _spikes(profile: Profile) -> Iterator[str]:
 
 
 def _inferred(raw: Profile) -> Iterator[str]:
-    for key in ("units_inferred", "units_doubtful"):
+    for key in ("units_inferred", "units_doubtful", "count_differs"):
         if key in raw.origin:
             yield str(raw.origin[key])
 
@@ -190,6 +193,15 @@ def overruled(raw: Profile) -> Iterator[str]:
             yield f"{what}: {raw.origin[f'{what}_overruled']}"
 
 
+def _clipped(raw: Profile) -> Iterator[str]:
+    """Heights beyond the range of the instrument."""
+    if found := clipping(raw):
+        yield (
+            f"{found}, unless the part has such flats: Rz, Rsk, Rku, the summits and whether the heights are Gaussian "
+            "are doubtful; measure again in a wider range"
+        )
+
+
 def _cut(profile: Profile) -> Iterator[str]:
     """How much of the trace was taken for what lies beyond the edges of the part."""
     for step in profile.steps:
@@ -197,29 +209,33 @@ def _cut(profile: Profile) -> Iterator[str]:
             yield f"{step}: the trace leaves the level of the surface there and does not come back"
 
 
-def _stated(raw: Profile) -> Iterator[str]:
-    """What the file prints against what its own heights give, by the file's own rules and before any of ours."""
+def _stated(profile: Profile, raw: Profile) -> Iterator[str]:
+    """Parameters that the file prints against those of its heights, by the file's rules and before any other filter.
+
+    Roughness printed beside an unfiltered trace is compared with the evaluated profile.
+    """
     stated = raw.origin.get("stated")
     if not isinstance(stated, Mapping):
         return
     short, sections = raw.origin.get("stated_short_cutoff"), raw.origin.get("sampling_lengths")
-    named = str(raw.origin.get("convention"))
+    named, filtered = str(raw.origin.get("convention")), bool(raw.origin.get("stated_filtered"))
+    own = profile if filtered else primary_profile(raw, short, floored=True) if isinstance(short, float) else raw
     ours = height_parameters(
-        primary_profile(raw, short, floored=True) if isinstance(short, float) else raw,
+        own,
         convention=named if named in CONVENTIONS else "ISO 4287:1997",
         sections=sections if isinstance(sections, int) else None,
     )
     for name, value in stated.items():
-        if name[:1] not in ("R", "P") or name[1:] not in _COMPARED:
+        if name[:1] not in ("R" if filtered else "RP") or name[1:] not in _COMPARED:
             continue
         if not isinstance(value, (int, float)) or not value > 0:
             continue
         found = getattr(ours, f"R{name[1:]}")
-        if abs(found / value - 1.0) > _HEADER_TOLERANCE:
-            yield (
-                f"the file states {name} {value * 1e6:.4g} um, its heights give {found * 1e6:.4g} um: header and "
-                "heights do not belong together, or not to this filter"
-            )
+        said = f"the file states {name} {value * 1e6:.4g} um, its heights give {found * 1e6:.4g} um"
+        if filtered and abs(value / found - 1.0) > _RESULT_TOLERANCE:
+            yield f"{said} by the filter taken here: stated {100.0 * (value / found - 1.0):+.0f} %"
+        elif not filtered and abs(found / value - 1.0) > _HEADER_TOLERANCE:
+            yield f"{said}: header and heights do not belong together, or not to this filter"
 
 
 def shape_warnings(gaussian: NormalProbability | None) -> Iterator[str]:

@@ -9,7 +9,10 @@ import numpy as np
 from profiles import InputError, Profile
 from profiles.errors import nearest
 from profiles.profile import of_profile
+from roughness.parameters import evaluation_length, named_convention
 
+SAMPLING_LENGTHS = 5
+"""Sampling lengths of the evaluation length by default (ISO 4288, ISO 21920-3)."""
 CORE_METHODS = ("least squares", "class levels")
 
 
@@ -18,7 +21,7 @@ class CoreParameters:
     """Rk family: heights in m, ratios in percent, areas in m (height x ratio).
 
     ``s_shaped`` is False where the flattest 40 % lie at an end of the curve, as on a sine, or are level, as
-    on a square wave: the parameters then mean nothing.
+    on a square wave: the parameters then mean nothing. ``length`` is the evaluated length (m).
     """
 
     Rk: float
@@ -30,6 +33,7 @@ class CoreParameters:
     A2: float
     s_shaped: bool
     method: str
+    length: float
 
 
 @of_profile
@@ -55,12 +59,26 @@ def material_ratio(profile: Profile, height: float) -> float:
 
 
 @of_profile
+def core_profile(profile: Profile, *, convention: str = "ISO 4287:1997", sections: int | None = None) -> Profile:
+    """One evaluation length in the middle of a profile: five cut-offs, or as many as fit. ISO 13565-1, ISO 21920-3.
+
+    A stated number of ``sections``, or a convention of the profile as a whole, makes the profile the evaluation length.
+
+    >>> core_profile(Profile(np.zeros(4800), 1e-6, cutoffs={"cutoff": 0.8e-3})).heights.size
+    4000
+    """
+    stated = sections is not None or not named_convention(convention).extremes_sectioned
+    return profile if stated else evaluation_length(profile, SAMPLING_LENGTHS)
+
+
+@of_profile
 def core_parameters(profile: Profile, *, method: str = "least squares") -> CoreParameters:
     """Rk Rpk Rvk Mr1 Mr2 by the line through the flattest 40 % of the curve. ISO 13565-2, 4.
 
     ``least squares``: the full curve and the least-squares line over the flattest 40 %, as the standard
     says. ``class levels``: the curve counted at 100 equal levels and the secant of those 40 %, as some
-    instruments do. They differ by up to 8 %. Rpk and Rvk are the triangles of equal area.
+    instruments do. They differ by up to 8 %. Rpk and Rvk are the triangles of equal area. The curve is one of the
+    whole profile; :func:`core_profile` cuts the evaluation length of the standard.
     """
     if method not in CORE_METHODS:
         raise InputError(f"must be known; {nearest(method, CORE_METHODS)}", where="Rk method", value=method)
@@ -88,6 +106,7 @@ def core_parameters(profile: Profile, *, method: str = "least squares") -> CoreP
         A2=a2,
         s_shaped=bool(1.0 < start < 59.0 and -40.0 * slope > 0.02 * deciles),
         method=method,
+        length=float(profile.heights.size * profile.spacing),
     )
 
 

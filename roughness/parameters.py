@@ -154,8 +154,8 @@ def section_count(profile: Profile) -> int:
     return 1 if cutoff is None else max(1, int(profile.heights.size * profile.spacing / cutoff + 0.01))
 
 
-def evaluation_length(profile: Profile) -> Profile:
-    """The whole cut-offs in the middle of the profile; all of it where not one fits, or none is recorded.
+def evaluation_length(profile: Profile, most: int | None = None) -> Profile:
+    """Whole cut-offs in the middle of the profile, ``most`` at most; the whole profile without a cut-off that fits.
 
     >>> evaluation_length(Profile(np.arange(4700.0), 1e-6, cutoffs={"cutoff": 0.8e-3})).heights[[0, -1]]
     array([ 350., 4349.])
@@ -163,7 +163,8 @@ def evaluation_length(profile: Profile) -> Profile:
     cutoff, size = profile.cutoffs.get("cutoff"), profile.heights.size
     if cutoff is None:
         return profile
-    wanted = round(section_count(profile) * cutoff / profile.spacing)
+    count = section_count(profile)
+    wanted = round((count if most is None else min(count, most)) * cutoff / profile.spacing)
     if wanted >= size:
         return profile
     first = (size - wanted) // 2

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from profiles import Profile
-from roughness.material_ratio import core_parameters, material_ratio_curve
+from roughness.material_ratio import core_parameters, core_profile, material_ratio_curve
 from roughness.parameters import height_parameters, named_convention
 from roughness.probability import NormalProbability, normal_probability
 from roughness.spectrum import log_binned, power_density
@@ -111,14 +111,15 @@ def _judged(name: str, r: NormalProbability) -> str:
     return "\n".join(lines)
 
 
-def abbott_figure(*profiles: Profile, convention: str = "ISO 4287:1997") -> Figure:
+def abbott_figure(*profiles: Profile, convention: str = "ISO 4287:1997", sections: int | None = None) -> Figure:
     """Material ratio curve of each profile with the core line and Rk, Rpk, Rvk of ISO 13565-2.
 
-    ``convention`` says how the line is laid through the core.
+    ``convention`` says how the line is laid through the core, and with ``sections`` which length the curve is of.
     """
     method = named_convention(convention).core
 
     def draw(axes: Axes, profile: Profile) -> None:
+        profile = core_profile(profile, convention=convention, sections=sections)
         ratio, heights = material_ratio_curve(profile)
         keep = np.unique(np.linspace(0, ratio.size - 1, 1500).astype(int))
         axes.plot(ratio[keep], heights[keep] * 1e6, color=_LINE, linewidth=1.3)

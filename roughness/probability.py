@@ -8,6 +8,7 @@ import numpy as np
 
 from profiles import InputError, Profile
 from profiles.profile import of_profile
+from roughness.clipping import clipping
 from roughness.integrals import area_integral
 from roughness.spectrum import autocorrelation
 
@@ -87,7 +88,8 @@ def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> Nor
     ``gaussian_bulk``: over at least 80 % of the heights; ``plateau``: two lines, the lower one steeper, describe it;
     ``not_gaussian``: none of these. The line holds where the heights stay within ``tolerance`` sigma of it
     or within the band, whichever is wider; with fewer than 30 independent heights the band is not used,
-    for it would forgive any shape. Valleys below 5 % do not make a plateau of a bulk that is straight.
+    for it would forgive any shape. Valleys below 5 % do not make a plateau of a bulk that is straight. A trace that
+    is clipped at the end of the range is ``not_gaussian``: the heights beyond are unknown.
     """
     from scipy.special import ndtr
 
@@ -104,7 +106,10 @@ def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> Nor
     extreme = np.abs(profile.heights[profile.valid] - mean).max() / sigma
     whole = first == 0 and last == _LEVELS - 1 and extreme <= extreme_limit(count)
     deviation = np.abs(heights - mean - sigma * quantiles).max() / sigma
-    if whole and (p_value >= 0.01 or deviation <= tolerance):
+    cut = clipping(profile)
+    if cut:
+        verdict = "not_gaussian"
+    elif whole and (p_value >= 0.01 or deviation <= tolerance):
         verdict = "gaussian"
     elif plateau is not None and plateau.material_percent <= 95.0:
         verdict = "plateau"
@@ -129,7 +134,9 @@ def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> Nor
         contact_ratio=ratio,
         lines=lines,
         plateau=plateau if verdict == "plateau" else None,
-        words=_words(verdict, low, high, independent, ratio, plateau),
+        words=f"{cut}; whether they are Gaussian is unknown."
+        if cut
+        else _words(verdict, low, high, independent, ratio, plateau),
     )
 
 

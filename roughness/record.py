@@ -11,11 +11,12 @@ import numpy as np
 from profiles import InputError, Profile
 from profiles.profile import of_profile
 from roughness.asperities import Asperities, mccool_asperities
+from roughness.clipping import clipping
 from roughness.cutoffs import choose_cutoffs, short_cutoff_for
 from roughness.defects import mask_edges, mask_outliers, without_edges
 from roughness.elements import element_parameters
 from roughness.guards import profile_warnings
-from roughness.material_ratio import core_parameters
+from roughness.material_ratio import core_parameters, core_profile
 from roughness.moments import Moments, moments
 from roughness.parameters import FEWEST, HeightParameters, height_parameters, named_convention
 from roughness.prepare import remove_form, roughness_profile
@@ -51,6 +52,8 @@ def evaluation_profile(
     instruments cut half a cut-off (``trim_cutoffs`` 0.5). ``method`` as in :func:`roughness_profile`.
     """
     _refuse_useless(trace)
+    if found := clipping(trace):
+        trace = replace(trace, origin={**trace.origin, "clipped": found})
     filtered = cutoff == "auto" and "cutoff" in trace.cutoffs
     if filtered and form == "line":
         profile = trace
@@ -182,9 +185,11 @@ def _parameters(
     values = asdict(heights)
     row: dict[str, object] = {f"{n}_um": values[n] * 1e6 for n in _LENGTHS}
     row |= {"Rsk": heights.Rsk, "Rku": heights.Rku, "Rdq": heights.Rdq}
-    core = core_parameters(profile, method=rule.core)
+    evaluated = core_profile(profile, convention=rule.name, sections=sections)
+    core = core_parameters(evaluated, method=rule.core)
     row |= {"Rk_um": core.Rk * 1e6, "Rpk_um": core.Rpk * 1e6, "Rvk_um": core.Rvk * 1e6}
     row |= {"Mr1_percent": core.Mr1, "Mr2_percent": core.Mr2, "s_shaped": core.s_shaped}
+    row |= {"Rk_length_mm": core.length * 1e3}
     layers = None if gaussian is None else gaussian.lines
     if layers is not None and not 0 < layers.plateau_sigma < layers.valley_sigma:
         layers = None

@@ -14,6 +14,11 @@ def pytest_configure() -> None:
         os.sched_setaffinity(0, {free[int(worker.removeprefix("gw")) % len(free)]})
 
 
+def pytest_make_parametrize_id(val: object, argname: str) -> str | None:
+    """A file's bytes name no test: some hold the time they were made, which differs between workers."""
+    return argname if isinstance(val, bytes) and len(val) > 40 else None
+
+
 @pytest.fixture(scope="session")
 def shared() -> Path:
     """The folder of measured data beside the project; tests that need it skip where it is absent."""

@@ -85,6 +85,7 @@ def pieces() -> dict[str, str]:
         "ehl_keys": _file_keys("mixedlub.ehl.file", "EhlFile"),
         "ehl_oil_keys": _file_keys("mixedlub.ehl.oil.file", "OilFile"),
         "api": _api(),
+        "quantities": _quantities(),
         "rooms": _rooms(),
         "ranges": _ranges(),
         "thresholds": thresholds.tables(),
@@ -132,7 +133,8 @@ def _commands() -> Iterator[tuple[str, str]]:
 def _kinds() -> Iterator[tuple[str, str]]:
     """A page for each kind of case: its columns, and the keys that it takes."""
     from mixedlub.kinds import KINDS, kind
-    from mixedlub.report.format_reference import EVERY_CASE, common_rows, kind_rows
+    from mixedlub.report.file_classes import EVERY_CASE
+    from mixedlub.report.format_reference import common_rows, kind_rows
     from mixedlub.schema.section import tables
     from mixedlub.schema.system_file import System
 
@@ -356,6 +358,15 @@ def _rooms() -> str:
         if not room.startswith("__"):
             rows.append((f"mixedlub/{room}", about))
     return md.named_table(("room", "holds"), rows)
+
+
+def _quantities() -> str:
+    """Symbols and quantities of the laws, by name."""
+    from mixedlub.chain.plain_text import plain_symbol
+    from mixedlub.chain.quantities import GLOSSARY
+
+    rows = [(name, plain_symbol(one.symbol), one.unit, one.meaning) for name, one in sorted(GLOSSARY.items())]
+    return md.named_table(("quantity", "symbol", "unit", "meaning"), rows)
 
 
 def _ranges() -> str:

@@ -18,7 +18,7 @@ from mixedlub.diagnosis.report.files import case_origin, files, write
 from mixedlub.diagnosis.report.improved import improved_case
 from mixedlub.diagnosis.report.text.answer import as_json, predictions
 from mixedlub.diagnosis.report.text.headline import chance
-from mixedlub.schema.findings import as_texts, collected, listed, warn_of
+from mixedlub.schema.findings import as_texts, collected, gravest_first, listed, warn_of
 from mixedlub.study.plan import counted
 from profiles.errors import InputError, as_path, nearest
 
@@ -189,12 +189,13 @@ def simulate(case: Case | str | PathLike[str], at: Frame | None = None) -> pd.Da
     >>> drive = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm"}}
     >>> rows = {"speed_rpm": [100.0, 200.0, 300.0], "friction_torque_Nm": [0.51, 0.62, 0.69]}
     >>> ml.simulate(ml.case.case_of(drive, rows), at={"speed_rpm": [150.0, 250.0]}).columns.tolist()
-    ['run', 'friction_torque_Nm', 'speed_rpm']
+    ['run', 'friction_torque_Nm', 'speed_rpm', 'validity']
     """
     found = _case(case, "simulate")
     asked = None if at is None else conditions_for(found, at)
     with collected() as notes:
         readings = simulated(found, asked)
+    notes = gravest_first(notes)
     warn_of(notes)
     readings.attrs["findings"] = as_texts(notes)
     return readings

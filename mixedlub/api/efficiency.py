@@ -29,14 +29,14 @@ def gearbox_efficiency(file: str | PathLike[str]) -> xr.Dataset:
     >>> found["total_loss_W"].dims, bool((found["total_loss_W"] > 0).all())
     (('torque_Nm', 'speed_rpm'), True)
     >>> found["gearbox_efficiency_percent"].sel(torque_Nm=120, speed_rpm=3000).round(1).item()
-    98.6
+    98.5
     """
     import xarray as xr
 
     with collected() as findings:
         gearbox, notes = read_gearbox(as_path(file, "gearbox_efficiency: file"))
         losses = gearbox.map()
-    warn_of([*findings, *notes])
+    warn_of([*losses.findings, *findings, *notes])
     levels = gearbox.file.conditions
     shape, axes = (len(levels.torque_Nm), len(levels.speed_rpm)), ("torque_Nm", "speed_rpm")
 

@@ -23,9 +23,11 @@ def evaluate_recording(method: str, file: Any) -> dict[str, pd.DataFrame]:
     >>> sorted(found), len(found["traction"])
     (['sweeps', 'traction'], 24)
     """
+    import pandas as pd
+
     from mixedlub.evaluate import evaluate
 
     with collected() as findings:
         found = evaluate(method, as_path(file, "evaluate_recording: file"))
     warn_of(findings)
-    return dict(found.tables)
+    return {name: table for name, table in found.tables.items() if isinstance(table, pd.DataFrame)}

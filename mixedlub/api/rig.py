@@ -43,6 +43,7 @@ def oil(named: str | None = None, /, **keys: Any) -> Lubricant:
     """An oil by name, by its file (NAME.toml), or by base stock, with the keys of the section ``[lubricant]``.
 
     What is left out is typical of its ``base`` stock; what the keys state wins over the oil of that name.
+    Doubts of the oil, as a viscosity under pressure that rises with temperature, are warnings.
 
     >>> import mixedlub as ml
     >>> ml.oil("pao", kinematic_viscosity_mm2_s=(32.0, 6.0), temperature_C=(40.0, 100.0)).base
@@ -51,7 +52,11 @@ def oil(named: str | None = None, /, **keys: Any) -> Lubricant:
     (97.9, 8.61)
     """
     given = {} if named is None else {"base" if named in STOCKS else "oil": named}
-    return parse(Lubricant, given | keys, "oil")
+    section = parse(Lubricant, given | keys, "oil")
+    with collected() as notes:
+        build.lubricant(section)
+    warn_of(notes)
+    return section
 
 
 def surface(profile: str | PathLike[str] | Profile | None = None, **keys: Any) -> SurfaceSection:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from shlex import quote
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -14,6 +13,7 @@ from mixedlub.case.import_file import read_import_file
 from mixedlub.gear import ROUNDED
 from mixedlub.kinds import Kind, kind
 from mixedlub.rig.rig import Rig
+from mixedlub.running.shell import quoted
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, listed, report
 from mixedlub.schema.table import (
@@ -120,8 +120,8 @@ def other_recordings(folder: Path) -> str:
     others = [p for p in sorted(folder.glob("*")) if p.name.lower().startswith("recordings.") and p.is_file()]
     if not others:
         return ""
-    (file, *_), case = others, quote(str(folder))
-    command = f"mixedlub import {quote(str(file))} --out {case} --answers {case}/system.toml --overwrite"
+    (file, *_), case = others, quoted(str(folder))
+    command = f"mixedlub import {quoted(str(file))} --out {case} --answers {case}/system.toml --overwrite"
     return f"; {file.name} is there, and `{command}` makes recordings.csv of it"
 
 

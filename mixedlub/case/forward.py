@@ -12,7 +12,8 @@ import numpy as np
 
 from mixedlub.case.folder import Case
 from mixedlub.chain.effect import Effect
-from mixedlub.chain.model import Model, Parameters, Record, available
+from mixedlub.chain.model import Chain, Model, Parameters, Record, available
+from mixedlub.chain.ranges import beyond
 from mixedlub.effects import known_effects, known_in
 from mixedlub.kinds.calibration import Calibration, calibrations, of_base_law, of_parameter
 from mixedlub.kinds.kind import ageing, varies
@@ -98,10 +99,10 @@ class Forward:
     def _build(self, effects: tuple[str, ...]) -> Model:
         return self.model(("reading",), [known_in(self.case.kind.name)[e] for e in effects])
 
-    def model(self, want: Sequence[str], effects: Sequence[Effect] = ()) -> Model:
-        """The base model of the case with more effects."""
+    def model(self, want: Sequence[str], effects: Sequence[Effect] = (), further: Chain = ()) -> Model:
+        """The base model of the case with more effects, and ``further`` laws behind its own."""
         added = {e.id: e for e in (*self.known.effects, *self.uncertain_laws, *effects)}
-        return Model(self.chain, tuple(self.inputs), want, tuple(added.values()))
+        return Model((*self.chain, *further), tuple(self.inputs), want, tuple(added.values()))
 
     def _rows(self, reading: np.ndarray) -> np.ndarray:
         """Readings in the unit of the recorded column, one per row."""
@@ -182,4 +183,10 @@ class Forward:
             if e.id not in (*exclude, *self.known.values)
             and available(e, self.chain, tuple(self.inputs), "reading", self.case.kind.name)
             and (not e.needs_variation_in or varies(self.inputs[e.needs_variation_in]))
+            and self._within(e)
         )
+
+    def _within(self, e: Effect) -> bool:
+        """Whether most rows are within the range in which an effect is offered."""
+        values = {name: self.base_quantity(name) for name in e.offered_within}
+        return bool(np.mean(~beyond(values, e.offered_within)) > 0.5)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from mixedlub.case.folder import Case, at_programme_end, other_recordings
 from mixedlub.case.forward import Forward
-from mixedlub.case.overloaded import overloaded_asperities
+from mixedlub.case.validity import judge_rows
 from mixedlub.schema.findings import report
 from mixedlub.schema.table import BOOKKEEPING, Table
 from profiles.errors import InputError
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def simulate(case: Case, at: Table | None = None) -> pd.DataFrame:
-    """Run numbers and simulated readings, then the conditions, then recorded readings where there are any.
+    """Run numbers and simulated readings, the conditions, recorded readings where there are any, and the validity.
 
     The rows are those of recordings and conditions, or of the table ``at``; each run appears once.
     """
@@ -25,10 +25,12 @@ def simulate(case: Case, at: Table | None = None) -> pd.DataFrame:
     parts = []
     for table in simulated_tables(case, at):
         forward = Forward(case, table)
-        for one in (*forward.notes, *overloaded_asperities(forward)):
+        judged = judge_rows(forward)
+        for one in (*judged.findings, *forward.notes):
             report(one)
         simulated = pd.DataFrame({"run": table["run"], case.quantity: forward.base_prediction()})
-        parts.append(pd.concat([simulated, conditions_of(case, table)], axis=1))
+        words = pd.Series(judged.words, name="validity")
+        parts.append(pd.concat([simulated, conditions_of(case, table), words], axis=1))
     return pd.concat(parts, ignore_index=True).drop_duplicates("run")
 
 

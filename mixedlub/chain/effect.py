@@ -2,26 +2,20 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from textwrap import fill
+from functools import cached_property
 from types import MappingProxyType
+from typing import Any, ClassVar
 
 import numpy as np
 
-from mixedlub.chain.plain_text import plain_equation, plain_symbol, with_symbol
+from mixedlub.chain.law import Catalogue, Function, Law, Ranges
+from mixedlub.chain.plain_text import INDENT, entry, plain_equation, plain_symbol, with_symbol
 from mixedlub.chain.priors import Prior
 from mixedlub.chain.quantities import GLOSSARY
-from profiles.errors import nearest
 
-WIDTH, INDENT = 80, 16
-"""Characters of a line of a page, and of the names before its texts."""
 STAGES = ("film", "shear", "contact", "boundary", "load", "loss", "property", "law", "measurement")
-
-
-Ranges = Mapping[str, tuple[float, float]]
-"""Least and largest value of quantities, in SI."""
 
 
 @dataclass(frozen=True)
@@ -75,21 +69,29 @@ class Parameter:
         return (low, high)
 
 
-@dataclass(frozen=True, repr=False)
-class Effect:
-    """A law that changes one quantity of the chain, with all that is to be known about it."""
+@dataclass(frozen=True, repr=False, kw_only=True)
+class Effect(Law):
+    """A law that changes one quantity of the chain, with all that is to be known about it.
 
-    id: str
-    law: Callable[..., object]
+    ``fingerprint`` names conditions (load, speed, slide_roll_ratio, oil_temperature, roughness, sequence) and
+    says whether the effect's share of the reading, (with - without)/without, grows (``"+"``), falls (``"-"``) or
+    stays (``"0"``) as the condition grows; falling includes growing more negative. It speaks of the loss of gears and
+    the friction of discs, of what shows on neither of the first standard rig that shows it; a film, say, may have
+    the opposite sign. ``applied_after`` names effects on the same quantity that come first; ``kinds`` restricts the
+    kinds of recording (empty: all). ``prior_odds`` are relative to those of most effects, at most one.
+    ``special_cases`` are laws, published or limits, that the effect becomes at certain values of some parameters. A
+    ``descriptive`` effect follows readings without naming a cause. An ``exact_form`` is the effect's definition, so no
+    error of form is considered. ``needs_variation_in`` is a quantity at whose single value the effect would only
+    rescale the base model; it is not offered there. ``offered_within`` are ranges of base quantities in which most rows
+    of a recording must be for it to be offered. A law that adds no physics ``replaces`` a step of the base model.
+    ``valid`` is the range of all its laws, ``also_valid`` gives the range of some by the values of the parameters.
+    """
+
     stage: str
     acts_on: tuple[str, ...]
-    reads: tuple[str, ...]
     parameters: tuple[Parameter, ...]
-    equation: str
-    source: str
     fingerprint: Mapping[str, str]
     separated_by: str
-    valid: Ranges = field(default_factory=dict)
     applied_after: tuple[str, ...] = ()
     kinds: tuple[str, ...] = ()
     prior_odds: float = 1.0
@@ -97,9 +99,26 @@ class Effect:
     descriptive: bool = False
     exact_form: bool = False
     needs_variation_in: str = ""
+    offered_within: Ranges = field(default_factory=dict)
     replaces: str = ""
     fixed: Mapping[str, float] = field(default_factory=dict)
     also_valid: Callable[[Mapping[str, float]], Ranges] | None = None
+    margin: ClassVar[str] = ""
+
+    @property
+    def id(self) -> str:
+        """The name of the effect."""
+        return self.name
+
+    @cached_property
+    def reads(self) -> tuple[str, ...]:
+        """Quantities that the law needs beside those that it changes."""
+        return self.arguments[len(self.acts_on) :]
+
+    @property
+    def parameter_names(self) -> tuple[str, ...]:
+        """Numbers of the law, its keyword-only arguments."""
+        return (*(p.name for p in self.parameters), *self.fixed)
 
     def valid_at(self, values: Mapping[str, float]) -> Ranges:
         """The range at these values of the parameters, one of which may choose a law with a narrower range."""
@@ -127,11 +146,6 @@ class Effect:
         return {p.name: fixed.get(p.name, p.usual) for p in self.parameters}
 
     @property
-    def summary(self) -> str:
-        """The first line of the law's docstring."""
-        return (inspect.getdoc(self.law) or "").split("\n")[0]
-
-    @property
     def nulls(self) -> dict[str, float]:
         """Parameter values that switch the effect off; prior medians where none does."""
         return {**self.fixed, **{p.name: p.null_value for p in self.parameters}}
@@ -141,24 +155,24 @@ class Effect:
         """Every parameter at its prior median."""
         return {p.name: p.prior.value(0.0) for p in self.parameters}
 
-    def page(self) -> str:
-        """What the declaration says, as text: equation, source, range, parameters with priors, separating test."""
+    def facts(self) -> Mapping[str, str]:
+        """Lines of the page by their headings."""
         acted = (", ".join(filter(None, (_letter(n), _unit(GLOSSARY[n].unit).strip()))) for n in self.acts_on)
-        ranges = (f"{n} {low:g} to {high:g}{_unit(GLOSSARY[n].unit)}" for n, (low, high) in self.valid.items())
-        odds = f"{self.prior_odds:g} times those of most effects" if self.prior_odds < 1.0 else ""
-        form = "exact by definition: no error of form is considered" if self.exact_form else ""
-        parts = {
+        return {
             "stage": self.stage,
             "changes": ", ".join(map(with_symbol, self.acts_on, acted)),
             "reads": ", ".join(with_symbol(name, _letter(name)) for name in self.reads) or "nothing else",
             "equation": plain_equation(self.equation),
             "source": self.source,
-            "valid": "; ".join(ranges),
+            "valid": _ranges(self.valid),
+            "offered": _ranges(self.offered_within) and f"where most rows have {_ranges(self.offered_within)}",
             "recordings": ", ".join(self.kinds),
-            "prior odds": odds,
-            "form": form,
+            "prior odds": f"{self.prior_odds:g} times those of most effects" if self.prior_odds < 1.0 else "",
+            "form": "exact by definition: no error of form is considered" if self.exact_form else "",
         }
-        facts = [entry(name, text) for name, text in parts.items() if text]
+
+    def numbers(self) -> list[str]:
+        """Lines of the page on parameters, special cases, and the separating test."""
         labels = [f"  {with_symbol(p.name, plain_equation(p.symbol))}" for p in self.parameters]
         indent = max(INDENT, 2 + max(map(len, labels), default=0))
         numbers = [entry(label, p.described(), indent) for p, label in zip(self.parameters, labels, strict=True)]
@@ -166,27 +180,19 @@ class Effect:
             entry("special case", f"{law}, at " + ", ".join(f"{n} {v:g}" for n, v in values.items()))
             for law, values in self.special_cases.items()
         ]
-        head = entry(f"{self.id}: ", self.summary, indent=2)
-        tail = entry("separated by", self.separated_by)
-        return "\n".join([head, "", *facts, "", "parameters", *numbers, *laws, "", tail])
-
-    __repr__ = page
+        return ["", "parameters", *numbers, *laws, "", entry("separated by", self.separated_by)]
 
     def values(self, z: np.ndarray) -> dict[str, float]:
         """Parameter values at standard-normal coordinates of the prior."""
         return {**self.fixed, **{p.name: p.prior.value(float(x)) for p, x in zip(self.parameters, z, strict=True)}}
 
 
-def entry(name: str, text: str, indent: int = INDENT) -> str:
-    """A line of a page: a name and its text, wrapped."""
-    begin, rest = f"{name:{indent}}", " " * indent
-    return fill(
-        text, WIDTH, initial_indent=begin, subsequent_indent=rest, break_long_words=False, break_on_hyphens=False
-    )
-
-
 def _unit(unit: str) -> str:
     return {"-": "", "*": " unit of the channel"}.get(unit, f" {unit}")
+
+
+def _ranges(ranges: Ranges) -> str:
+    return "; ".join(f"{n} {low:g} to {high:g}{_unit(GLOSSARY[n].unit)}" for n, (low, high) in ranges.items())
 
 
 def _letter(quantity: str) -> str:
@@ -194,92 +200,36 @@ def _letter(quantity: str) -> str:
     return "" if symbol == "-" else plain_symbol(symbol)
 
 
-REGISTRY: dict[str, Effect] = {}
-"""Effects by id, as their modules were imported; `mixedlub.effects.catalogue` imports them all."""
+EFFECTS: Catalogue[Effect] = Catalogue(
+    "mixedlub.effects", "effect", GLOSSARY, lambda effect: STAGES.index(effect.stage)
+)
 
 
-def effect(
-    *,
-    stage: str,
-    acts_on: str | tuple[str, ...],
-    parameters: tuple[Parameter, ...],
-    equation: str,
-    source: str,
-    fingerprint: Mapping[str, str],
-    separated_by: str,
-    valid: Ranges | None = None,
-    also_valid: Callable[[Mapping[str, float]], Ranges] | None = None,
-    applied_after: tuple[str, ...] = (),
-    kinds: tuple[str, ...] = (),
-    prior_odds: float = 1.0,
-    special_cases: Mapping[str, Mapping[str, float]] | None = None,
-    descriptive: bool = False,
-    exact_form: bool = False,
-    needs_variation_in: str = "",
-    replaces: str = "",
-) -> Callable[[Callable[..., object]], Callable[..., object]]:
+def effect(*, acts_on: str | tuple[str, ...], **known: Any) -> Callable[[Function], Function]:
     """Register a law as an effect; its signature must say what the declaration says.
 
-    The first arguments are the quantities acted on, then the quantities read, then keyword-only parameters.
-    ``fingerprint`` names conditions (load, speed, slide_roll_ratio, oil_temperature, roughness, sequence) and
-    says whether the effect's share of the reading, (with - without)/without, grows (``"+"``), falls (``"-"``) or
-    stays (``"0"``) as the condition grows; falling includes growing more negative. It speaks of the loss of gears and
-    the friction of discs, of what shows on neither of the first standard rig that shows it; a film, say, may have
-    the opposite sign. ``applied_after`` names effects on the same quantity that come first; ``kinds`` restricts the
-    kinds of recording (empty: all). ``prior_odds`` are relative to those of most effects, at most one.
-    ``special_cases`` are laws, published or limits, that the effect becomes at certain values of some parameters. A
-    ``descriptive`` effect follows readings without naming a cause. An ``exact_form`` is the effect's definition, so no
-    error of form is considered. ``needs_variation_in`` is a quantity at whose single value the effect would only
-    rescale the base model; it is not offered there. A law that adds no physics ``replaces`` a step of the base model.
-    ``valid`` is the range of all its laws, ``also_valid`` gives that of some by the values of the parameters.
+    The first arguments are the quantities acted on, then the quantities read, then keyword-only parameters. ``known``
+    are fields of `Effect`.
     """
     targets = (acts_on,) if isinstance(acts_on, str) else acts_on
+    given = {name: value for name, value in known.items() if value is not None}
+    frozen: dict[str, Any] = {n: MappingProxyType(dict(v)) if isinstance(v, Mapping) else v for n, v in given.items()}
 
-    def register(law: Callable[..., object]) -> Callable[..., object]:
-        arguments = inspect.signature(law).parameters
-        names = [n for n, a in arguments.items() if a.kind is not a.KEYWORD_ONLY]
-        keywords = [n for n, a in arguments.items() if a.kind is a.KEYWORD_ONLY]
-        where = f"effect {law.__name__}"
-        if stage not in STAGES:
-            raise TypeError(f"{where}: stage {stage!r} is none of {STAGES}")
-        if tuple(names[: len(targets)]) != targets:
-            raise TypeError(f"{where}: first arguments {names[: len(targets)]} must be what it acts on, {targets}")
-        if keywords != [p.name for p in parameters]:
-            raise TypeError(f"{where}: keyword-only arguments {keywords} must be its parameters")
-        for name in names:
-            if name not in GLOSSARY:
-                raise TypeError(f"{where}: {name!r} is not in the glossary; {nearest(name, GLOSSARY)}")
-        if needs_variation_in and needs_variation_in not in names:
-            raise TypeError(f"{where}: needs_variation_in {needs_variation_in!r} is not among what it reads")
-        if not 0.0 < prior_odds <= 1.0:
-            raise TypeError(f"{where}: prior_odds {prior_odds!r} must lie above 0 and not above 1")
-        for case, values in (special_cases or {}).items():
-            if not values.keys() <= set(keywords):
-                raise TypeError(f"{where}: special case {case!r} fixes {sorted(values)}, not all of them parameters")
-        if law.__name__ in REGISTRY and REGISTRY[law.__name__].law.__module__ != law.__module__:
-            raise TypeError(f"{where}: already defined in {REGISTRY[law.__name__].law.__module__}")
-        REGISTRY[law.__name__] = Effect(
-            id=law.__name__,
-            law=law,
-            stage=stage,
-            acts_on=targets,
-            reads=tuple(names[len(targets) :]),
-            parameters=parameters,
-            equation=equation,
-            source=source,
-            fingerprint=MappingProxyType(dict(fingerprint)),
-            separated_by=separated_by,
-            valid=MappingProxyType(dict(valid or {})),
-            applied_after=applied_after,
-            kinds=kinds,
-            prior_odds=prior_odds,
-            special_cases=MappingProxyType(dict(special_cases or {})),
-            descriptive=descriptive,
-            exact_form=exact_form,
-            needs_variation_in=needs_variation_in,
-            replaces=replaces,
-            also_valid=also_valid,
-        )
-        return law
+    return EFFECTS.declares(lambda law: _checked(Effect(name=law.__name__, law=law, acts_on=targets, **frozen)))
 
-    return register
+
+def _checked(found: Effect) -> Effect:
+    """The effect; raise an error if declaration and signature disagree in what only effects have."""
+    where, begin = f"effect {found.name!r}", found.arguments[: len(found.acts_on)]
+    if found.stage not in STAGES:
+        raise TypeError(f"{where}: stage {found.stage!r} is none of {STAGES}")
+    if begin != found.acts_on:
+        raise TypeError(f"{where}: first arguments {begin} must be what it acts on, {found.acts_on}")
+    if found.needs_variation_in and found.needs_variation_in not in found.arguments:
+        raise TypeError(f"{where}: needs_variation_in {found.needs_variation_in!r} is not among what it reads")
+    if not 0.0 < found.prior_odds <= 1.0:
+        raise TypeError(f"{where}: prior_odds {found.prior_odds!r} must lie above 0 and not above 1")
+    for case, values in found.special_cases.items():
+        if not values.keys() <= set(found.parameter_names):
+            raise TypeError(f"{where}: special case {case!r} fixes {sorted(values)}, not all of them parameters")
+    return found

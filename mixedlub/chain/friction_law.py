@@ -9,22 +9,16 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from mixedlub.chain.documented import Coefficient, Documented
-from mixedlub.chain.model import Law
+from mixedlub.chain.documented import Coefficient as Coefficient
+from mixedlub.chain.law import Catalogue, Function, Law
 from mixedlub.chain.plain_text import plain_equation
-from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.chain.quantities import GLOSSARY, unit_and_factor
 from mixedlub.chain.ranges import beyond
-from profiles.errors import nearest
 
 Place = Literal["contact", "mesh"]
 PLACES: Mapping[Place, str] = {"contact": "every contact point", "mesh": "one value for the mesh"}
 NEAR_REST = 0.02
 """Judgement. Slide-to-roll ratio below which a law that diverges without sliding is flagged."""
-_SHOWN = {"m^2/s": ("mm²/s", 1e6), "m": ("µm", 1e6), "Pa": ("MPa", 1e-6)}
-"""Unit in which a page gives a quantity, and the factor from SI."""
-_OWN_UNIT = {"load_intensity": ("N/mm²", 1e-6), "radius": ("mm", 1e3), "pitch_radius": ("mm", 1e3)}
-
-
 Limits = tuple[str | None, str, float]
 """Coefficients that are the ends of a range, the lower one zero where none is, and their factor to SI."""
 
@@ -38,25 +32,17 @@ class OfOil(NamedTuple):
     tolerance: float
 
 
-@dataclass(frozen=True, repr=False)
-class FrictionLaw(Documented):
+@dataclass(frozen=True, repr=False, kw_only=True)
+class FrictionLaw(Law):
     """A friction law: the function, where it is evaluated, and what is known of its validity.
 
-    ``valid`` is the range of its source in SI, by quantity of the glossary; ``limits`` names the coefficients that are
-    the ends of such a range, and their factor to SI; ``of_oil`` names those that are properties of the only oil that
-    the law is for, zero where unknown; ``diverges`` names quantities at whose zero the law has no finite
-    value; ``sources`` counts independent sources of the constants, 0 where none was found.
+    ``limits`` names the coefficients that are the ends of a range, and their factor to SI; ``of_oil`` names properties
+    of the only oil that the law is for, zero where unknown; ``diverges`` names quantities at whose zero the law has no
+    finite value.
     """
 
-    name: str
-    law: Law
-    title: str
     place: Place
-    sources: int
-    status: str
-    valid: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     diverges: tuple[str, ...] = ()
-    coefficients: tuple[Coefficient, ...] = ()
     limits: Mapping[str, Limits] = field(default_factory=dict)
     of_oil: Mapping[str, OfOil] = field(default_factory=dict)
 
@@ -69,7 +55,7 @@ class FrictionLaw(Documented):
         }
         return replace(self, valid={**self.valid, **own})
 
-    def with_coefficients(self, given: Mapping[str, float]) -> Law:
+    def with_coefficients(self, given: Mapping[str, float]) -> Callable[..., Any]:
         """The law with its coefficients fixed, defaults where none are given; a number becomes an array of one."""
         values, law = self.values(given), self.law
 
@@ -109,10 +95,10 @@ class FrictionLaw(Documented):
         """The range of each quantity in words."""
         return [_range(name, *ends) for name, ends in self.valid.items()]
 
-    def page(self) -> str:
-        """Equation, inputs, range, status, coefficients and source, as text of 80 columns."""
+    def facts(self) -> Mapping[str, str]:
+        """Lines of the page by their headings."""
         zero = " or ".join(GLOSSARY[name].meaning for name in self.diverges)
-        parts = {
+        return {
             "gives": PLACES[self.place],
             "equation": plain_equation(self.equation),
             "": self.remarks,
@@ -122,20 +108,11 @@ class FrictionLaw(Documented):
             "status": self.status,
             "source": self.source,
         }
-        return self._page(parts)
-
-    __repr__ = page
 
 
 def shown_unit(quantity: str) -> str:
     """Unit in which a page gives a quantity."""
     return unit_and_factor(quantity)[0].removeprefix("-")
-
-
-def unit_and_factor(quantity: str) -> tuple[str, float]:
-    """That unit, and the factor to it from SI."""
-    unit = GLOSSARY[quantity].unit
-    return _OWN_UNIT.get(quantity) or _SHOWN.get(unit, (unit, 1.0))
 
 
 def _range(name: str, low: float, high: float) -> str:
@@ -153,49 +130,19 @@ def _range(name: str, low: float, high: float) -> str:
     return f"{name.replace('_', ' ')} {ends} {unit.removeprefix('-')}".rstrip()
 
 
-REGISTRY: dict[str, FrictionLaw] = {}
-"""Laws by name, as their modules were imported; `mixedlub.friction.catalogue` imports them all."""
-Function = Callable[..., Any]
+BASE = "tallian_mixture"
+"""The friction of the base model."""
+FRICTION_LAWS: Catalogue[FrictionLaw] = Catalogue(
+    "mixedlub.friction", "friction law", GLOSSARY, lambda law: (law.name != BASE, list(PLACES).index(law.place))
+)
 
 
-def friction_law(
-    title: str,
-    place: Place,
-    *,
-    sources: int,
-    status: str,
-    valid: Mapping[str, tuple[float, float]] | None = None,
-    diverges: tuple[str, ...] = (),
-    coefficients: tuple[Coefficient, ...] = (),
-    limits: Mapping[str, Limits] | None = None,
-    of_oil: Mapping[str, OfOil] | None = None,
-) -> Callable[[Function], Function]:
+def friction_law(title: str, place: Place, **known: Any) -> Callable[[Function], Function]:
     """Register the function below as a friction law under its own name.
 
     Its arguments are quantities of the glossary, its keyword-only arguments the coefficients; its docstring has the
-    equation and names the source.
+    equation and names the source. ``known`` are fields of `FrictionLaw`.
     """
-
-    def register(law: Function) -> Function:
-        about = (title, place, sources, status, valid or {}, diverges, coefficients, limits or {}, of_oil or {})
-        found = FrictionLaw(law.__name__, law, *about)
-        _check(found)
-        REGISTRY[found.name] = found
-        return law
-
-    return register
-
-
-def _check(found: FrictionLaw) -> None:
-    where = f"friction law {found.name!r}"
-    known = REGISTRY.get(found.name)
-    if known is not None and known.law.__module__ != found.law.__module__:
-        raise TypeError(f"{where} is already defined in {known.law.__module__}")
-    for name in (*found.reads, *found.valid, *found.diverges):
-        if name not in GLOSSARY:
-            raise TypeError(f"{where}: {name!r} is no quantity; {nearest(name, GLOSSARY)}")
-    keywords = {n for n, a in inspect.signature(found.law).parameters.items() if a.kind is a.KEYWORD_ONLY}
-    if keywords != {c.name for c in found.coefficients}:
-        raise TypeError(f"{where}: its coefficients are not its keyword-only arguments")
-    if not found.source:
-        raise TypeError(f"{where}: its docstring names no 'Source: '")
+    return FRICTION_LAWS.declares(
+        lambda law: FrictionLaw(name=law.__name__, law=law, title=title, place=place, **known)
+    )

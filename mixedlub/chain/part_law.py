@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from mixedlub.chain.documented import Coefficient, Documented
+from mixedlub.chain.law import Catalogue, Function, Law
 from mixedlub.chain.plain_text import plain_equation
-from profiles.errors import nearest
 
 Kind = Literal["bearing", "seal", "windage", "churning", "pocketing", "jet", "other"]
 GIVES: dict[Kind, str] = {
@@ -33,7 +31,7 @@ COMPUTED = {
     "gear_module": "normal module (m)",
     "wheel_teeth": "number of teeth (-)",
     "helix_angle": "helix angle (rad)",
-    "root_diameter": "root diameter of a standard dedendum, 1.25 modules (m)",
+    "root_diameter": "root diameter by the dedendum of the gears (m)",
     "tip_diameter": "tip diameter (m)",
 }
 """Quantities that follow from gears, oil and condition, each with its meaning."""
@@ -52,21 +50,11 @@ GIVEN = {
 """Quantities that the user gives: the key of the file, and the factor from its unit to SI."""
 
 
-@dataclass(frozen=True, repr=False)
-class PartLaw(Documented):
-    """A law of a part: the function, its kind, and what is known of its constants.
+@dataclass(frozen=True, repr=False, kw_only=True)
+class PartLaw(Law):
+    """A law of a part; ``series`` names the table of the coefficients of series of bearings."""
 
-    ``sources`` counts independent sources that print the constants, 0 where they are quoted from memory of reviews;
-    ``series`` has the coefficients of series of bearings by name.
-    """
-
-    name: str
     kind: Kind
-    law: Callable[..., Any]
-    title: str
-    sources: int
-    status: str
-    coefficients: tuple[Coefficient, ...] = ()
     series: str = ""
 
     @property
@@ -74,9 +62,9 @@ class PartLaw(Documented):
         """Keys of the file that it needs."""
         return tuple(GIVEN[name][0] for name in self.reads if name in GIVEN)
 
-    def page(self) -> str:
-        """Equation, inputs, status, coefficients and source, as text of 80 columns."""
-        parts = {
+    def facts(self) -> Mapping[str, str]:
+        """Lines of the page by their headings."""
+        return {
             "kind": f"{self.kind}; gives its {GIVES[self.kind]}",
             "equation": plain_equation(self.equation),
             "": self.remarks,
@@ -85,50 +73,18 @@ class PartLaw(Documented):
             "status": self.status,
             "source": self.source,
         }
-        return self._page(parts)
-
-    __repr__ = page
 
 
-REGISTRY: dict[tuple[Kind, str], PartLaw] = {}
-"""Laws by kind and name, as their modules were imported; `mixedlub.parts.catalogue` imports them all."""
+PART_LAWS: dict[Kind, Catalogue[PartLaw]] = {
+    kind: Catalogue("mixedlub.parts", f"{kind} law", {*COMPUTED, *GIVEN}) for kind in GIVES
+}
+"""Laws of parts by kind."""
 
 
-def part_law(
-    kind: Kind,
-    name: str,
-    title: str,
-    *,
-    sources: int,
-    status: str,
-    coefficients: tuple[Coefficient, ...] = (),
-    series: str = "",
-) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+def part_law(kind: Kind, name: str, title: str, **known: Any) -> Callable[[Function], Function]:
     """Register the function below as a law of a kind of parts.
 
     Its arguments are quantities of `COMPUTED` and `GIVEN`, its keyword-only arguments the coefficients; its docstring
-    has the equation and names the source. ``series`` names the table of the coefficients of series.
+    has the equation and names the source. ``known`` are fields of `PartLaw`.
     """
-
-    def register(law: Callable[..., Any]) -> Callable[..., Any]:
-        found = PartLaw(name, kind, law, title, sources, status, coefficients, series)
-        _check(found)
-        REGISTRY[kind, name] = found
-        return law
-
-    return register
-
-
-def _check(found: PartLaw) -> None:
-    where = f"{found.kind} law {found.name!r}"
-    known = REGISTRY.get((found.kind, found.name))
-    if known is not None and known.law.__module__ != found.law.__module__:
-        raise TypeError(f"{where} is already defined in {known.law.__module__}")
-    for name in found.reads:
-        if name not in COMPUTED and name not in GIVEN:
-            raise TypeError(f"{where}: {name!r} is no quantity; {nearest(name, {**COMPUTED, **GIVEN})}")
-    keywords = {n for n, a in inspect.signature(found.law).parameters.items() if a.kind is a.KEYWORD_ONLY}
-    if keywords != {c.name for c in found.coefficients}:
-        raise TypeError(f"{where}: its coefficients are not its keyword-only arguments")
-    if not found.source:
-        raise TypeError(f"{where}: its docstring names no 'Source: '")
+    return PART_LAWS[kind].declares(lambda law: PartLaw(name=name, kind=kind, law=law, title=title, **known))

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import re
 from string import ascii_letters
+from textwrap import fill
+
+WIDTH, INDENT = 80, 16
+"""Characters of a line of a page, and of the names before its texts."""
 
 SIGNS = {
     r"\qquad": "~ ",
@@ -111,3 +115,11 @@ def _argument(text: str, start: int) -> tuple[str, int]:
 
 def _bracketed(text: str) -> str:
     return text if re.fullmatch(r"\\?[a-zA-Z0-9.]+'?(_(\w|\{\w+\}))?", text) else f"({text})"
+
+
+def entry(name: str, text: str, indent: int = INDENT) -> str:
+    """A line of a page: a name and its text, wrapped."""
+    begin, rest = f"{name:{indent}}", " " * indent
+    return fill(
+        text, WIDTH, initial_indent=begin, subsequent_indent=rest, break_long_words=False, break_on_hyphens=False
+    )

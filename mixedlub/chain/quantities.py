@@ -32,6 +32,7 @@ transverse_radius       | R_y        | m       | reduced radius across the direc
 entrainment_speed       | u          | m/s     | mean of the two surface speeds
 sliding_speed           | v_s        | m/s     | difference of the two surface speeds, without sign
 moes_load               | M          | -       | Moes' load parameter of a line contact
+isoviscous_ratio        | q_EI       | -       | asymptote of the isoviscous elastic film over the piezoviscous one
 slide_roll_ratio        | S          | -       | sliding speed over entrainment speed
 roll_angle              | theta      | rad     | pinion roll angle of the contact point
 path_fraction           | xi         | -       | place along the path of contact, 0 at its start and 1 at its end
@@ -90,6 +91,7 @@ peklenik_number         | gamma      | -       | correlation length of heights a
 smooth_film             | h_0        | m       | film thickness if the surfaces were smooth
 film_over_roughness     | Lambda     | -       | film thickness over composite roughness at a point of the path
 composite_roughness     | sigma      | m       | root of the summed height variances
+mean_over_rms           | kappa      | -       | mean over rms roughness, sums of both surfaces
 mean_roughness          | Ra         | m       | arithmetic mean roughness, mean of both surfaces
 summit_density          | D          | 1/m^2   | summits per area
 summit_radius           | R_s        | m       | radius of a summit of mean curvature
@@ -150,6 +152,7 @@ load_fraction           | q_F        | -       | load on a drive over the larges
 additive_fraction       | q_a        | -       | content of an additive over the largest content tested
 gears_fitted            | chi        | -       | 1 with gears; without: share of friction left, 0 for a gear pair
 motor_torque            | T_m        | N m     | torque that the controller computes from the motor current
+load_torque             | T_L        | N m     | torque of the load, of the sign of the speed where the motor drives
 reference_torque        | T_m0       | N m     | largest motor torque of the recording
 drive_angle             | phi        | rad     | angle the drive has turned
 pressure                | p          | Pa      | hydrostatic pressure
@@ -203,3 +206,13 @@ def _read() -> dict[str, Quantity]:
 
 GLOSSARY: dict[str, Quantity] = _read()
 """Quantity by name."""
+
+_SHOWN = {"m^2/s": ("mm²/s", 1e6), "m": ("µm", 1e6), "Pa": ("MPa", 1e-6)}
+"""Unit in which a page gives a quantity, and the factor from SI."""
+_OWN_UNIT = {"load_intensity": ("N/mm²", 1e-6), "radius": ("mm", 1e3), "pitch_radius": ("mm", 1e3)}
+
+
+def unit_and_factor(quantity: str) -> tuple[str, float]:
+    """Unit in which a page gives a quantity, and the factor to it from SI."""
+    unit = GLOSSARY[quantity].unit
+    return _OWN_UNIT.get(quantity) or _SHOWN.get(unit, (unit, 1.0))

@@ -1,31 +1,131 @@
-"""Whether quantities are within the range in which a law or effect is known to hold."""
+"""The ranges in which laws hold, and how far beyond one a quantity is: the one judge of every row of numbers."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import reduce
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
+from mixedlub.chain.quantities import GLOSSARY, unit_and_factor
+from mixedlub.schema.findings import Finding, Severity, finding
+from mixedlub.schema.units import ZEROS
+
+Ends = tuple[float, float]
+Law = TypeVar("Law", bound=Callable[..., Any])
+
+GRADES = ("valid", "extrapolated", "not_quantitative", "impossible")
+"""Grades of a row: within every range, a little beyond one, far beyond one, and beyond what a contact can be."""
+VALID = GRADES[0]
+WORDS = ("valid", "extrapolated a little", "not quantitative", "impossible")
+_SEVERITIES = (Severity.NOTE, Severity.NOTE, Severity.CAUTION, Severity.DOUBT)
+LITTLE = 2.0
+"""Judgement. Factor on an end of a range up to which a law is extrapolated a little: published laws of one step, each
+fitted to a range, differ there by up to 40 %."""
+EXTRAPOLATED = "law_extrapolated"
+"""Code of a law or effect outside its range; a flag adds a colon and its name."""
 SLACK = 1e-9
 """Rounding that a quantity may have beyond its range, over the end of it."""
+UNBOUNDED = (-np.inf, np.inf)
+ENDLESS = 1e300
+"""Numbers from which an end of a range is left out of its text."""
+
+_DECLARED: dict[Callable[..., Any], Mapping[str, Ends]] = {}
 
 
-def beyond(state: Mapping[str, Any], valid: Mapping[str, tuple[float, float]]) -> np.ndarray:
+def holds_within(ranges: Mapping[str, Ends]) -> Callable[[Law], Law]:
+    """Declare the range of the law below, in SI by quantity of the glossary."""
+
+    def register(law: Law) -> Law:
+        _DECLARED[law] = ranges
+        return law
+
+    return register
+
+
+def declared(law: Callable[..., Any]) -> Mapping[str, Ends]:
+    """The declared range of a law, also of one that wraps it; empty where none is known."""
+    return _DECLARED.get(law) or _DECLARED.get(getattr(law, "__wrapped__", law), {})
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A range of a quantity, with the code and the advice of the finding on values outside it.
+
+    ``little`` is the range of a small extrapolation, by default up to a factor `LITTLE` beyond the ends, and
+    ``possible`` that of contacts which exist.
+    """
+
+    code: str
+    quantity: str
+    ends: Ends
+    advice: str
+    little: Ends | None = None
+    possible: Ends = UNBOUNDED
+
+    @property
+    def key(self) -> str:
+        """Code and quantity."""
+        return f"{self.code}:{self.quantity}"
+
+    def grades(self, values: np.ndarray) -> np.ndarray:
+        """The place in `GRADES` of values; NaN stands for values within the range.
+
+        >>> ratio = Limit("a", "slide_roll_ratio", (0.1, 2.0), "", possible=(0.0, 9.0))
+        >>> ratio.grades(np.array([np.nan, 2.0, 3.0, 0.04, 9.5])).tolist()
+        [0, 0, 1, 2, 3]
+        """
+        low, high = self.ends
+        little = self.little or (low / LITTLE if low > 0.0 else low, high * LITTLE)
+        known = np.where(np.isnan(values), np.clip(1.0, low, high), values)
+        off = (beyond({"": known}, {"": ends}) for ends in (self.ends, little, self.possible))
+        return np.asarray(sum(o.astype(np.int8) for o in off))
+
+    def reach(self, values: np.ndarray) -> str:
+        """The range in words, and how far beyond it the values are that are not NaN.
+
+        >>> Limit("a", "moes_load", (2.0, np.inf), "").reach(np.array([1.5, np.nan]))
+        "Moes' load parameter of a line contact of at least 2, here down to 1.5"
+        >>> Limit("a", "shear_stress", (0.0, 90e6), "").reach(np.array([95e6, -1e6, 120e6]))
+        'shear stress of the film 0 to 90 MPa, here down to -1 and up to 120 MPa'
+        """
+        known = self.quantity in GLOSSARY
+        unit, factor = unit_and_factor(self.quantity) if known else ("-", 1.0)
+        unit, zero = (unit.removeprefix("-"), 0.0) if unit != "K" else ("°C", float(ZEROS["degC"]))
+        low, high = (end * factor - zero for end in self.ends)
+        shown = values[~np.isnan(values)] * factor - zero
+        ends = f"{low:.4g} to {high:.4g}" if high < ENDLESS else f"of at least {low:.4g}"
+        down = [f"down to {shown.min():.4g}"] if shown.min() < low else []
+        up = [f"up to {shown.max():.4g}"] if shown.max() > high else []
+        meaning = GLOSSARY[self.quantity].meaning if known else self.quantity.replace("_", " ")
+        return f"{meaning} {ends} {unit}".rstrip() + f", here {' and '.join(down + up)} {unit}".rstrip()
+
+
+def of_law(name: str, ranges: Mapping[str, Ends]) -> tuple[Limit, ...]:
+    """The limits of a law or effect of a name."""
+    advice = f"{name} is used outside the range in which it holds"
+    return tuple(Limit(f"{EXTRAPOLATED}:{name}", quantity, ends, advice) for quantity, ends in ranges.items())
+
+
+def beyond(state: Mapping[str, Any], valid: Mapping[str, Ends]) -> np.ndarray:
     """Where any quantity is outside its range, rounding aside, or is no number.
 
     >>> beyond({"slide_roll_ratio": np.array([2.0 + 1e-12, 2.1, np.nan])}, {"slide_roll_ratio": (0.0, 2.0)}).tolist()
     [False, True, True]
     """
     within = (
-        (state[name] >= low - SLACK * abs(low)) & (state[name] <= high + SLACK * abs(high))
-        for name, (low, high) in valid.items()
+        (state[name] >= low - _slack(low)) & (state[name] <= high + _slack(high)) for name, (low, high) in valid.items()
     )
     return ~reduce(np.logical_and, within, np.ones(1, bool))
 
 
-def farthest_beyond(value: np.ndarray, ends: tuple[float, float], where: np.ndarray) -> np.ndarray:
+def _slack(end: float) -> float:
+    return SLACK * abs(end) if np.isfinite(end) else 0.0
+
+
+def farthest_beyond(value: np.ndarray, ends: Ends, where: np.ndarray) -> np.ndarray:
     """The value that lies farthest beyond a range along the last axis, kept as one; NaN where none does.
 
     >>> where = np.array([True, True, False])
@@ -37,3 +137,82 @@ def farthest_beyond(value: np.ndarray, ends: tuple[float, float], where: np.ndar
     most = np.max(value, axis=-1, keepdims=True, where=off, initial=-np.inf)
     least = np.min(value, axis=-1, keepdims=True, where=off, initial=np.inf)
     return np.where(off.any(axis=-1, keepdims=True), np.where(most > ends[1], most, least), np.nan)
+
+
+Reached = Sequence[tuple[Limit, np.ndarray]]
+"""Limits, each with the values of the rows; NaN stands for a value within the range."""
+
+
+def flags(reached: Reached, shape: tuple[int, ...]) -> dict[str, np.ndarray]:
+    """Grades of rows by code, the gravest code first; codes that apply nowhere are left out.
+
+    >>> thin, wide = Limit("a", "film", (0.0, 1.0), ""), Limit("b", "width", (0.0, 1.0), "")
+    >>> {c: g.tolist() for c, g in flags([(thin, np.array([1.5, 0.5])), (wide, np.array([0.5, 3.0]))], (2,)).items()}
+    {'b': [0, 2], 'a': [1, 0]}
+    """
+    found: dict[str, np.ndarray] = {}
+    for limit, values in reached:
+        grades = np.broadcast_to(limit.grades(values), shape)
+        found[limit.code] = np.maximum(found.get(limit.code, np.int8(0)), grades)
+    return dict(sorted(((c, g) for c, g in found.items() if g.any()), key=lambda item: -int(item[1].max())))
+
+
+def as_words(found: Mapping[str, np.ndarray], shape: tuple[int, ...]) -> tuple[np.ndarray, list[str]]:
+    """The validity of every row: an index of the given shape, and the words of each index, the grade first.
+
+    >>> index, words = as_words({"a": np.array([1, 0, 0]), "b": np.array([2, 1, 0])}, (3,))
+    >>> [words[i] for i in index]
+    ['not_quantitative; b; a', 'extrapolated; b', 'valid']
+    """
+    number = np.zeros(shape, dtype=np.int64)
+    for place, grades in enumerate(found.values()):
+        number |= grades.astype(np.int64) << 2 * place
+    sets, index = np.unique(number, return_inverse=True)
+    words = []
+    for one in sets.tolist():
+        own = sorted(((-(one >> 2 * place & 3), code) for place, code in enumerate(found)), key=lambda item: item[0])
+        codes = [code for grade, code in own if grade]
+        words.append("; ".join([GRADES[-own[0][0]], *codes]) if codes else VALID)
+    return index.reshape(shape), words
+
+
+def validity(found: Mapping[str, np.ndarray], shape: tuple[int, ...]) -> np.ndarray:
+    """The words of `as_words` for every row."""
+    index, words = as_words(found, shape)
+    return np.array(words, dtype=object)[index]
+
+
+def findings(
+    reached: Reached,
+    shape: tuple[int, ...],
+    rows: str = "rows",
+    place: str | Callable[[str], str] = "",
+    more: Mapping[str, str] | None = None,
+) -> tuple[Finding, ...]:
+    """A finding on each code, the gravest first: how many ``rows`` it holds for, their grades, values and limits.
+
+    A law that is far outside its range in every row puts all numbers in doubt. ``place`` is where all or each of the
+    codes belong, ``more`` adds to the advice of some.
+    """
+    said = []
+    for code, grades in flags(reached, shape).items():
+        own = [(limit, np.broadcast_to(values, shape)) for limit, values in reached if limit.code == code]
+        worst = int(grades.max())
+        advice = own[0][0].advice + (more or {}).get(code, "")
+        reach = "; ".join(limit.reach(np.where(g, v, np.nan)) for limit, v in own if (g := limit.grades(v) > 0).any())
+        text = f"of {grades.size} {rows} {_counted(grades)}: {advice} ({reach})"
+        at = place if isinstance(place, str) else place(code)
+        whole = code.startswith(EXTRAPOLATED) and bool((grades > 1).all())
+        severity = Severity.DOUBT if whole else _SEVERITIES[worst]
+        said.append(finding(code.partition(":")[0], text, at, severity))
+    return tuple(said)
+
+
+def _counted(grades: np.ndarray) -> str:
+    """Numbers of rows by grade, the worst first.
+
+    >>> _counted(np.array([0, 1, 2, 1]))
+    '1 not quantitative, 2 extrapolated a little'
+    """
+    counts = ((np.count_nonzero(grades == grade), WORDS[grade]) for grade in (3, 2, 1))
+    return ", ".join(f"{count} {word}" for count, word in counts if count)

@@ -7,28 +7,13 @@ group ``mixedlub.laws``.
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from functools import cache
-from typing import Any, TypeVar
+from dataclasses import dataclass
+from functools import cached_property
 
-from mixedlub.schema.discovery import loaded
-
-Law = TypeVar("Law", bound=Callable[..., Any])
-
-
-@dataclass(frozen=True)
-class Choice:
-    """A law that is offered for a slot: its name in a study file and what choosing it means.
-
-    ``valid`` is the range in which it is known to hold, in SI by quantity of the glossary.
-    """
-
-    name: str
-    meaning: str
-    law: Callable[..., Any]
-    valid: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+from mixedlub.chain.law import Catalogue, Function, Law
+from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.chain.ranges import holds_within
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,34 +27,23 @@ class Slot:
     quantity: str
     meaning: str
     default: str
-    _offered: dict[str, Choice] = field(default_factory=dict, init=False, repr=False)
+
+    @cached_property
+    def laws(self) -> Catalogue[Law]:
+        """The laws by name in a study file, that of the base model first."""
+        return Catalogue("mixedlub.laws", f"{self.option} =", GLOSSARY, lambda law: law.name != self.default)
 
     def offers(
         self, name: str, meaning: str, valid: Mapping[str, tuple[float, float]] | None = None
-    ) -> Callable[[Law], Law]:
+    ) -> Callable[[Function], Function]:
         """Offer the law below under a name, with what the choice means and where the law is known to hold."""
-
-        def register(law: Law) -> Law:
-            known = self._offered.get(name)
-            if known is not None and known.law.__module__ != law.__module__:
-                raise TypeError(f"{self.option} = {name!r} is already defined in {known.law.__module__}")
-            if "Source: " not in (inspect.getdoc(law) or ""):
-                raise TypeError(f"{self.option} = {name!r}: the docstring of its law names no 'Source: '")
-            self._offered[name] = Choice(name, meaning, law, valid or {})
-            return law
-
-        return register
+        declares = self.laws.declares(lambda law: Law(name=name, law=law, title=meaning, valid=valid or {}))
+        return lambda law: holds_within(valid or {})(declares(law))
 
     @property
-    def choices(self) -> Mapping[str, Choice]:
+    def choices(self) -> Mapping[str, Law]:
         """The laws by name, that of the base model first."""
-        _load()
-        return dict(sorted(self._offered.items(), key=lambda item: (item[0] != self.default, item[0])))
-
-
-@cache
-def _load() -> None:
-    loaded("mixedlub.laws", "mixedlub.laws")
+        return self.laws.all
 
 
 FILM = Slot("film", "film_thickness", "law of the film thickness", "dowson_toyoda_central")
@@ -84,3 +58,15 @@ SLIDING_POWER = Slot(
 )
 SLOTS = (FILM, ASPERITY_AREA, ASPERITY_LOAD, VISCOSITY, SHEAR, FILM_FRICTION, MIXTURE, SLIDING_POWER)
 """In the order of the chain. Slots of one option take the laws of one name."""
+
+STEPS: Mapping[str, tuple[str, ...]] = {
+    "contact of the asperities": ("asperities", "heights"),
+    "film thickness": ("film", "film_roughness", "balance"),
+    "friction of film and asperities together": ("mixture", "friction"),
+    "load of film and asperities": ("balance", "film", "film_roughness", "asperities", "heights", "friction"),
+    "load sharing of the teeth": ("averaging",),
+    "shear of the film": ("effective_viscosity",),
+    "viscosity over temperature": (),
+    "viscosity under pressure": ("viscosity_law", "viscosity_pressure"),
+}
+"""Steps that an effect may replace, each with the options that choose a law of it or a law which it contains."""

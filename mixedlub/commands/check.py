@@ -10,7 +10,7 @@ import numpy as np
 import typer
 
 from mixedlub.commands.console import case_folder, echo, input_errors_from, print_findings
-from mixedlub.schema.findings import Finding, Severity, collected, grouped, of_severity
+from mixedlub.schema.findings import Finding, Severity, collected, gravest_first, grouped, of_severity
 from mixedlub.schema.units import unit_of
 from profiles.errors import InputError
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from mixedlub.schema.table import Table
 
 NAME = "check"
-EXAMPLE = "mixedlub new case --out my_case && mixedlub check my_case"
+EXAMPLE = "mixedlub new case --out my_case\nmixedlub check my_case"
 
 
 def command(case: Annotated[Path, typer.Argument(metavar="CASE", help="Case folder with system.toml.")]) -> None:
@@ -68,7 +68,7 @@ def understood(case: Case) -> Iterator[str]:
     checked, refused = _checked(case, forward)
     yield from refused
     found = list(dict.fromkeys([*found, *checked]))
-    doubtful = grouped(of_severity(found, Severity.CAUTION, Severity.DOUBT))
+    doubtful = grouped(gravest_first(of_severity(found, Severity.CAUTION, Severity.DOUBT)))
     if doubtful:
         yield "Doubtful:"
         yield from (f"  {one}." for one in doubtful)
@@ -187,6 +187,7 @@ def _scatter(relative: float, absolute: float, case: Case) -> str:
 def _checked(case: Case, forward: Forward | None) -> tuple[list[Finding], list[str]]:
     """Findings on the system and readings, and the errors that prevent diagnosis or prediction."""
     from mixedlub.case.forward import Forward
+    from mixedlub.case.validity import judge_rows
     from mixedlub.data_checks.audit import check_readings
     from mixedlub.data_checks.pooled_rows import pooled_in
     from mixedlub.diagnosis.assessment.extrapolation import beyond_recorded
@@ -197,13 +198,16 @@ def _checked(case: Case, forward: Forward | None) -> tuple[list[Finding], list[s
         readings = np.asarray(case.recordings[case.quantity], dtype=float)
         try:
             found += check_readings(case, case.recordings, readings, forward)
+            found += judge_rows(forward).findings
         except InputError as error:
             refused.append(f"Cannot be diagnosed: {error}.")
     if case.recordings is not None and case.recordings.ignored:
         found += pooled_in(case.folder / "recordings.csv", case.recordings, case.quantity)
     if case.conditions is not None:
         try:
-            Forward(case, case.conditions).base_prediction()
+            conditioned = Forward(case, case.conditions)
+            conditioned.base_prediction()
+            found += judge_rows(conditioned).findings
         except InputError as error:
             refused.append(f"Cannot be predicted: {error}.")
     return [*found, *beyond_recorded(case, case.conditions)], refused

@@ -28,10 +28,13 @@ CONDITIONS = (
 
 
 def named_folder(text: str) -> Path:
-    """The folder that an option names; an empty text would mean the current one."""
+    """The folder that an option names, ``~`` expanded; an empty text would mean the current one."""
     if not text.strip():
         raise typer.BadParameter("must name a folder; '.' is the current one")
-    return Path(text)
+    try:
+        return Path(text).expanduser()
+    except RuntimeError:
+        raise typer.BadParameter(f"no home folder of {text.partition('/')[0]!r} is known") from None
 
 
 _opened: list[Path] = []
@@ -39,9 +42,14 @@ _made: list[Path] = []
 _published: list[Path] = []
 
 
-def output_folder(out: Path | None, command: str, name: str) -> Path:
-    """The output folder, created if necessary; ``out/COMMAND/NAME`` where none is given."""
+def output_folder(out: Path | None, command: str, name: str, *, knows_own: bool = False) -> Path:
+    """The output folder, created if necessary; ``out/COMMAND/NAME`` where none is given.
+
+    A command that ``knows_own`` results checks for itself which files it would replace.
+    """
     folder = Path("out") / command / name if out is None else out
+    if out is None and not knows_own and folder.is_dir() and any(p.name[0] != "." for p in folder.iterdir()):
+        note(f"the result in {folder}, maybe of another input of that name, is replaced; --out names another folder")
     try:
         _made[:] = [path for path in (folder, *folder.parents) if not path.exists()]
         folder.mkdir(parents=True, exist_ok=True)

@@ -55,7 +55,7 @@ class How:
 
     def open(self, name: str, origin: Origin, tables: Iterable[str], what: str = "file", *files: str) -> Delivery:
         """The folder of the result of an input, refused where it holds tables or files of other origin."""
-        to = Delivery(output_folder(self.out, self.command, name), origin, what, self)
+        to = Delivery(output_folder(self.out, self.command, name, knows_own=True), origin, what, self)
         earlier = to.check([*to.names(tables), *files])
         if earlier:
             note(earlier)

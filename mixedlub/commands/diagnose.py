@@ -15,7 +15,7 @@ from mixedlub.schema.findings import Finding
 from mixedlub.schema.result import Result
 
 NAME = "diagnose"
-EXAMPLE = "mixedlub new case --out my_case && mixedlub diagnose my_case"
+EXAMPLE = "mixedlub new case --out my_case\nmixedlub diagnose my_case"
 
 
 @delivers(NAME, "figures", "format_", "xlsx", "csv_style")

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from mixedlub.efficiency import Gearbox, Losses
 
 NAME = "efficiency"
-EXAMPLE = "mixedlub new efficiency --out my_gearbox && mixedlub efficiency my_gearbox/efficiency.toml"
+EXAMPLE = "mixedlub new efficiency --out my_gearbox\nmixedlub efficiency my_gearbox/efficiency.toml"
 
 
 @delivers(NAME)
@@ -46,7 +46,7 @@ def command(
         with busy("computing"):
             losses, at = gearbox.map(), gearbox.at_cycle()
             cycles = mesh_cycles(gearbox, at)
-    print_findings(findings)
+    print_findings([*losses.findings, *findings])
     made = {
         "map": tables.map_table(losses),
         "loss_map": tables.loss_map(losses),
@@ -61,20 +61,17 @@ def command(
         hours = np.array(duty.duration_h)
         points = gearbox.losses(np.array(duty.torque_Nm), np.array(duty.speed_rpm) * np.pi / 30.0)
         made |= {"duty": tables.duty_table(points, hours), "duty_summary": tables.duty_summary(points, hours)}
-    title, notes = gearbox.file.title, tuple(_notes(gearbox, made["map"]))
+    title, notes = gearbox.file.title, tuple(_notes(gearbox))
     figures = efficiency_figures(title, losses, cycles, made)
     deliver(Result(title, made, figures, tuple(_lines(made, at)), notes, columns=tables.TABLES), to)
 
 
-def _notes(gearbox: Gearbox, of_map: pd.DataFrame) -> Iterator[str]:
-    """Laws of parts whose constants no source that was read confirms, and conditions outside a range."""
+def _notes(gearbox: Gearbox) -> Iterator[str]:
+    """Laws of parts with constants that no source confirms."""
     laws = {part.law.title: part.law for stage in gearbox.stages for part in stage.parts}
     doubtful = [title for title, law in laws.items() if not law.sources and law.kind != "other"]
     if doubtful:
         yield f"constants not confirmed by their source: {', '.join(doubtful)}; `mixedlub parts` says what is known"
-    outside = int((of_map["validity"] != "valid").sum())
-    if outside:
-        yield f"{outside} of {len(of_map)} conditions of the map are outside a law's range; see its column validity"
 
 
 def _lines(made: Mapping[str, pd.DataFrame], at: Losses) -> Iterator[str]:
@@ -85,7 +82,7 @@ def _lines(made: Mapping[str, pd.DataFrame], at: Losses) -> Iterator[str]:
             f"losses of the stage {row['stage_efficiency_percent']:.3f} %"
         )
     share = made["breakdown"].iloc[:-1].groupby("origin", sort=False)["loss_W"].sum()
-    parts = ", ".join(f"{origin} {value:.4g}" for origin, value in share.items())
+    parts = ", ".join(f"{origin} {value:.4g}" for origin, value in share.items() if value)
     yield f"  gearbox: efficiency {100.0 * at.efficiency()[0]:.3f} %, loss {at.total()[0]:.4g} W ({parts})"
     if "duty_summary" in made:
         row = made["duty_summary"].to_dict("records")[0]

@@ -16,7 +16,7 @@ from mixedlub.running.origin import origin_of_file
 from mixedlub.schema.result import Result
 
 NAME = "ehl"
-EXAMPLE = "mixedlub new ehl --out my_contacts && mixedlub ehl my_contacts/contacts.toml"
+EXAMPLE = "mixedlub new ehl --out my_contacts\nmixedlub ehl my_contacts/contacts.toml"
 
 
 @delivers(NAME)

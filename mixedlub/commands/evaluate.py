@@ -14,7 +14,7 @@ from mixedlub.running.origin import origin_of_file
 from mixedlub.schema.findings import collected
 
 NAME = "evaluate"
-EXAMPLE = "mixedlub new calorimetric --out rig && mixedlub evaluate calorimetric rig/calorimetric.toml"
+EXAMPLE = "mixedlub new calorimetric --out rig\nmixedlub evaluate calorimetric rig/calorimetric.toml"
 METHODS = "calorimetric, strain-gauge, off-line, two-disc, regression or calibration."
 
 

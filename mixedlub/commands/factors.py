@@ -13,7 +13,7 @@ from mixedlub.commands.deliver import How, deliver, delivers
 from mixedlub.schema.result import Result
 
 NAME = "factors"
-EXAMPLE = "mixedlub new factors --out my_factors && mixedlub factors my_factors/factors.toml"
+EXAMPLE = "mixedlub new factors --out my_factors\nmixedlub factors my_factors/factors.toml"
 
 
 @delivers(NAME)

@@ -74,6 +74,7 @@ def _compare(
 ) -> None:
     from mixedlub.chain.documented import few
     from mixedlub.report.friction_figures import figures
+    from mixedlub.rig.surface import mean_assumed
     from mixedlub.schema.toml_file import read_toml
     from mixedlub.study import read_study
     from mixedlub.study.friction_comparison import TABLES, compared, mesh_table
@@ -83,7 +84,7 @@ def _compare(
         given: dict[str, Any] = {} if coefficients is None else _of_files(read_toml(coefficients), coefficients.parent)
         comparison = compared(read, given, pairing=pairing, **condition)
     to = how.open(read.name, origin_of_file(study, condition, pairing, given), TABLES, "study")
-    print_findings(read.notes)
+    print_findings(dict.fromkeys((*read.notes, *mean_assumed(read.surfaces.values()))))
     notes = [
         f"{name} is left out: give {few(lacking)} in a file for --coefficients"
         for name, lacking in comparison.left_out.items()

@@ -14,7 +14,7 @@ from mixedlub.running.origin import origin_of_file
 from mixedlub.schema.result import Result
 
 NAME = "gear"
-EXAMPLE = "mixedlub new gear --out my_gears && mixedlub gear my_gears/gear.toml"
+EXAMPLE = "mixedlub new gear --out my_gears\nmixedlub gear my_gears/gear.toml"
 MOST_PRINTED = 8
 """Most torques that are printed."""
 
@@ -43,9 +43,7 @@ def command(
         given, pair = problem.file.iso_6336, problem.pair
         loads = given.application_factor * found.torque / pair.reference_radius[0] / pair.face_width
         with collected() as findings:
-            iso = [
-                iso_stiffness(pair, load, dedendum=given.dedendum, blank_factor=given.blank_factor) for load in loads
-            ]
+            iso = [iso_stiffness(pair, load, blank_factor=given.blank_factor) for load in loads]
     notes = [str(one) for one in (*findings, *problem.sharing.check(pair))]
     if found.distribution is None:
         notes.append('rigid teeth or a table: no transmission error and no stiffness; model = "ldp" has them')

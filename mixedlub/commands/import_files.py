@@ -6,6 +6,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from time import monotonic
 from typing import Annotated
 
 import typer
@@ -14,10 +15,9 @@ from mixedlub.commands.console import ask, echo, named_folder
 from profiles.errors import InputError
 
 NAME = "import"
-EXAMPLE = (
-    "mixedlub new case --out my_case && "
-    "mixedlub import my_case/recordings.csv --answers my_case/system.toml --out imported"
-)
+LONG = 5.0
+"""Judgement. Seconds after which an import says what it does."""
+EXAMPLE = "mixedlub new case --out rig\nmixedlub import rig/recordings.csv --answers rig/system.toml --out imported"
 
 
 def command(
@@ -70,12 +70,13 @@ def command(
 
 @contextmanager
 def _progress_bar() -> Iterator[Callable[[str], None]]:
-    """A progress bar on stderr for the import, hidden while a question is open; only in interactive terminals."""
+    """A progress bar on stderr, hidden while a question is open; elsewhere a line a step once an import takes long."""
     from rich.console import Console
 
     console = Console(stderr=True)
     if not console.is_terminal:
-        yield lambda doing: None
+        started = monotonic()
+        yield lambda doing: echo(f"{doing} ...", error=True) if doing and monotonic() - started > LONG else None
         return
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 

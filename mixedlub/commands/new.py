@@ -59,10 +59,12 @@ def command(
     A template with the values of an example rig: optional keys are comments with their meaning. It runs unchanged; the
     readings of a case are synthetic, from the base model.
     """
-    from mixedlub.evaluate import EVALUATIONS
+    if what not in TEMPLATES:
+        from mixedlub.evaluate import EVALUATIONS
 
-    if what not in (*TEMPLATES, *EVALUATIONS):
-        raise InputError(f"no such template; {nearest(what, (*TEMPLATES, *EVALUATIONS))}", where="what", value=what)
+        if what not in EVALUATIONS:
+            known = (*TEMPLATES, *EVALUATIONS)
+            raise InputError(f"no such template; {nearest(what, known)}", where="what", value=what)
     if what != CASE and kind is not None:
         raise InputError("only a case has a kind", where="--kind", value=kind)
     makers = {

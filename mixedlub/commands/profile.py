@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -31,7 +31,7 @@ Record = Mapping[str, Any]
 def command(
     files: Annotated[
         list[Path],
-        typer.Argument(metavar="FILE...", help="Traces in any known format, each also .gz, or shipped:NAME."),
+        typer.Argument(metavar="FILE...", help="Traces or height maps, each also .gz, or shipped:NAME."),
     ],
     how: How,
     form: Annotated[
@@ -81,42 +81,60 @@ def command(
     ISO parameters, spectral moments, asperities and Gaussian verdict, with figures.
     """
     from profiles import SHIPPED_MARK, read, shipped
+    from profiles.image import read_map
+    from profiles.readers.base import HoldsMap
     from roughness import trace_record
+    from roughness.areal import trace_across_lay
     from roughness.guards import overruled
 
     def trace_of(file: Path) -> Profile:
         if str(file).startswith(SHIPPED_MARK):
             return shipped(str(file), "FILE")
-        return read(file, unit=unit, spacing=spacing)
+        try:
+            return read(file, unit=unit, spacing=spacing)
+        except HoldsMap:
+            if spacing is not None:
+                raise InputError("a height map has steps of its own", where="spacing", value=spacing) from None
+            return trace_across_lay(read_map(file))
 
-    traces = each_read(files, trace_of)
-    with named_options():
-        told_already = {f"{file}: {text}" for file, trace in zip(files, traces) for text in overruled(trace)}
-        for text in sorted(told_already):
-            note(text)
-    found = []
-    for file, trace in zip(files, traces):
-        with named_options(file, trace):
-            evaluated = trace_record(
-                trace,
-                form=form,
-                cutoff="auto" if cutoff_mm is None else cutoff_mm * 1e-3,
-                short_cutoff="auto" if short_cutoff_um is None else short_cutoff_um * 1e-6,
-                method=method,
-                outliers=outliers,
-                trim_cutoffs=trim,
-                edges=edges,
-                convention=convention,
-            )
-        found.append(evaluated)
-    records: list[dict[str, Any]] = [{**record, "file": str(file)} for file, (_, record) in zip(files, found)]
+    done: list[tuple[Path, Profile, Profile, Record]] = []
+    wrong: list[InputError] = []
+    told_already: set[str] = set()
+    for file in files:
+        try:
+            with named_options():
+                trace = trace_of(file)
+                for text in overruled(trace):
+                    note(f"{file}: {text}")
+                    told_already.add(f"{file}: {text}")
+            with named_options(file, trace):
+                evaluated = trace_record(
+                    trace,
+                    form=form,
+                    cutoff="auto" if cutoff_mm is None else cutoff_mm * 1e-3,
+                    short_cutoff="auto" if short_cutoff_um is None else short_cutoff_um * 1e-6,
+                    method=method,
+                    outliers=outliers,
+                    trim_cutoffs=trim,
+                    edges=edges,
+                    convention=convention,
+                )
+            done.append((file, trace, *evaluated))
+        except InputError as error:
+            if error.where.removeprefix("--") in OPTIONS:
+                raise
+            wrong.append(error)
+    if not done:
+        raise _together(wrong)
+    files, traces = [file for file, *_ in done], [trace for _, trace, *_ in done]
+    records: list[dict[str, Any]] = [{**record, "file": str(file)} for file, *_, record in done]
     contents = [file.read_bytes() if file.is_file() else b"" for file in files[1:]]
     to = how.open(_stem(files[0]), origin_of_file(files[0], files[1:], contents), (), "trace", "profile.json")
     notes = (f"{record['file']}: {text}" for record in records for text in record["warnings"])
     result = Result(
         "Traces",
         {},
-        _figures([_stem(file) for file in files], traces, [profile for profile, _ in found], records),
+        _figures([_stem(file) for file in files], traces, [profile for *_, profile, _ in done], records),
         tuple(line for record in records for line in summary(record)),
         tuple(text for text in notes if text not in told_already),
         files={"profile.json": json.dumps(records, indent=1) + "\n"},
@@ -126,26 +144,16 @@ def command(
         note(f"{drawings} is of an earlier run; without --no-figures it is drawn anew")
     written = f"details in {to.folder / 'profile.json'}"
     deliver(result, to, written=written, drawings=f", figures in {drawings}")
-
-
-def each_read(files: list[Path], read: Callable[[Path], Profile]) -> list[Profile]:
-    """The traces of all files; one error names all files that cannot be read."""
-    traces: list[Profile] = []
-    wrong: list[InputError] = []
-    for file in files:
-        try:
-            with named_options():
-                traces.append(read(file))
-        except InputError as error:
-            if error.where.removeprefix("--") in OPTIONS:
-                raise
-            wrong.append(error)
-    if len(wrong) > 1:
-        others = "; ".join(str(error) for error in wrong[1:])
-        raise InputError(f"{wrong[0].rule}; and {others}", where=wrong[0].where, value=wrong[0].value)
     if wrong:
-        raise wrong[0]
-    return traces
+        raise _together(wrong, len(done))
+
+
+def _together(wrong: list[InputError], done: int = 0) -> InputError:
+    """One error that names all files that cannot be evaluated, and how many others were."""
+    first, *others = wrong
+    rule = "; and ".join((first.rule, "; ".join(str(error) for error in others))) if others else first.rule
+    left = f" ({done} other file{'s' * (done > 1)} evaluated)" if done else ""
+    return InputError(f"{rule}{left}", where=first.where, value=first.value)
 
 
 OPTIONS = ("unit", "spacing", "form", "method", "convention")
@@ -224,6 +232,6 @@ def _figures(
         rule, (_, sections) = record["parameters"]["convention"], rules_of_the_file(profile, trace)
         drawn[f"{stem}_trace"] = partial(plots.trace_figure, profile, convention=rule, sections=sections)
         drawn[f"{stem}_probability"] = partial(plots.probability_figure, profile)
-        drawn[f"{stem}_abbott"] = partial(plots.abbott_figure, profile, convention=rule)
+        drawn[f"{stem}_abbott"] = partial(plots.abbott_figure, profile, convention=rule, sections=sections)
         drawn[f"{stem}_spectrum"] = partial(plots.spectrum_figure, profile)
     return drawn

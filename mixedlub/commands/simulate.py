@@ -13,10 +13,16 @@ from mixedlub.running.origin import origin_of
 from mixedlub.schema.result import Result, described
 
 NAME = "simulate"
-EXAMPLE = "mixedlub new case --out my_case && mixedlub simulate my_case"
+EXAMPLE = "mixedlub new case --out my_case\nmixedlub simulate my_case"
 INPUTS = ("system.toml", "recordings.csv", "conditions.csv")
 """Files of a case that a simulation is of."""
-TABLES = {"simulation": described(run="number of the reading", QUANTITY="reading of the base model")}
+TABLES = {
+    "simulation": described(
+        run="number of the reading",
+        validity="text: valid, or each range that the row leaves",
+        QUANTITY="reading of the base model",
+    )
+}
 """Columns of the table of `mixedlub simulate`."""
 
 
@@ -34,10 +40,9 @@ def command(
     system.toml names are part of the model, as in the folder improved of a diagnosis.
     """
     from mixedlub.case.folder import read_case, read_conditions, unpredicted_runs
-    from mixedlub.case.simulation import simulate, simulated_tables
-    from mixedlub.diagnosis.assessment.validity import known_beyond_range
+    from mixedlub.case.simulation import simulate
     from mixedlub.rig.plausibility import implausible
-    from mixedlub.schema.findings import collected
+    from mixedlub.schema.findings import collected, gravest_first
 
     with collected() as notes, input_errors_from(str(case)):
         found = read_case(case_folder(case), need_recordings=False)
@@ -45,8 +50,7 @@ def command(
         notes += unpredicted_runs(found, found.conditions) if at is None else []
         asked = None if at is None else read_conditions(found, at)
         rows = simulate(found, asked)
-        notes += [one for table in simulated_tables(found, asked) for one in known_beyond_range(found, table)]
     to = how.open(found.name, origin_of(case, INPUTS, str(at), at and at.read_bytes()), TABLES, "case")
-    print_findings(dict.fromkeys(notes))
+    print_findings(gravest_first(dict.fromkeys(notes)))
     written = f"{len(rows)} rows of {found.quantity} in {to.folder / 'simulation.csv'}"
     deliver(Result(found.name, {"simulation": rows}, {}, columns=TABLES), to, written=written)

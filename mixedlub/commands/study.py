@@ -16,7 +16,7 @@ from mixedlub.schema.result import Result
 from profiles.errors import InputError
 
 NAME = "study"
-EXAMPLE = "mixedlub new study --out my_study && mixedlub study my_study/study.toml"
+EXAMPLE = "mixedlub new study --out my_study\nmixedlub study my_study/study.toml"
 
 Scheduler = Annotated[
     str | None, typer.Option(metavar="ADDRESS", help="Address of a Dask scheduler, e.g. tcp://host:8786.")

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.base_model.limits import FAR_FROM_OIL
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
-from mixedlub.case.overloaded import overloaded_asperities
+from mixedlub.case.validity import judge_rows
 from mixedlub.data_checks.included import unmodelled_losses
 from mixedlub.data_checks.misread import NEGATIVE_SIGMAS, misread, sds
-from mixedlub.data_checks.mixed_units import of_odd_units, teeth_too_hard_pressed
+from mixedlub.data_checks.mixed_units import of_odd_units
 from mixedlub.data_checks.placeholders import placeholders
 from mixedlub.data_checks.sign_checks import both_signs, of_other_sign
 from mixedlub.kinds.kind import gears_out
@@ -23,7 +24,7 @@ from mixedlub.recording.noise import (
     transformed_noise,
 )
 from mixedlub.rig.plausibility import implausible
-from mixedlub.schema.findings import Finding, Severity, finding, listed
+from mixedlub.schema.findings import Finding, Severity, finding, gravest_first, listed
 from mixedlub.schema.ranges import ranges
 from mixedlub.schema.table import Table
 from mixedlub.schema.units import UNITS, unit_of
@@ -43,8 +44,6 @@ THINNEST_OIL = 0.4
 """Judgement. Viscosity (mPa s) of the thinnest liquid for which the model holds."""
 THINNEST_D341 = 2e-6
 """Source: ASTM D341. Kinematic viscosity (m2/s) down to which log log(nu + 0.7) is all of ASTM D341."""
-FAR_FROM_OIL = 30.0
-"""Judgement. Kelvin outside the two viscosity points up to which the viscosity-temperature law is accurate enough."""
 STUCK_ROWS, STUCK_SHARE = 5, 0.2
 """Judgement. Rows with exactly the same reading, and their share of all rows, from which a stuck channel is
 suspected."""
@@ -64,7 +63,8 @@ CONTRADICTING = 4.0
 
 def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[Finding]:
     """Findings on the files and the readings; an error where the recording cannot be diagnosed."""
-    return [*implausible(case.rig), *check_readings(case, rows, y, forward), *_noise_source(case, y)]
+    found = [*implausible(case.rig), *check_readings(case, rows, y, forward), *judge_rows(forward).findings]
+    return [*gravest_first(found), *_noise_source(case, y)]
 
 
 def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[Finding]:
@@ -83,13 +83,11 @@ def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> 
         *_scarce(y),
         *_thin(case, y, forward),
         *of_odd_units(case, rows, y, base, FEWEST, SCARCE),
-        *teeth_too_hard_pressed(case, rows, forward),
-        *overloaded_asperities(forward),
         *_more_than_put_in(case, rows, y),
         *_of_one_sign(case, rows, y),
         *_sliding(rows),
         *_warm(rows),
-        *_beyond_the_oil(case, rows),
+        *_in_fahrenheit(case, rows),
         *_backwards(rows),
         *_stuck(case, rows, y, base),
         *placeholders(case.quantity, rows, y, base),
@@ -282,23 +280,19 @@ def _warm(rows: Table) -> list[Finding]:
     return [finding("temperature_in_kelvin", f"{lowest:g} or more in all rows: check that it is not in kelvin", name)]
 
 
-def _beyond_the_oil(case: Case, rows: Table) -> list[Finding]:
-    """Temperatures more than 30 K outside the two points of viscosity; often a column in degrees Fahrenheit."""
+def _in_fahrenheit(case: Case, rows: Table) -> list[Finding]:
+    """Temperatures far outside the two points of viscosity that are within them as degrees Fahrenheit."""
     oil = case.system.lubricant
     if oil is None or oil.temperature_C is None or "oil_temperature_C" not in rows:
         return []
-    low, high = sorted(oil.temperature_C)
+    low, high = min(oil.temperature_C) - FAR_FROM_OIL, max(oil.temperature_C) + FAR_FROM_OIL
     coldest, hottest = float(rows["oil_temperature_C"].min()), float(rows["oil_temperature_C"].max())
-    if low - FAR_FROM_OIL <= coldest and hottest <= high + FAR_FROM_OIL:
-        return []
-    far = hottest if hottest > high + FAR_FROM_OIL else coldest
-    statement = f"{far:g} is far from the {low:g} and {high:g} of [lubricant]: viscosity is extrapolated"
     factor, added = UNITS["C"]["degF"]
     least, most = (factor * value + added for value in (coldest, hottest))
-    if not (low - FAR_FROM_OIL <= least and most <= high + FAR_FROM_OIL):
-        return [finding("viscosity_extrapolated", statement, "oil_temperature_C")]
-    other = f"{coldest:g} to {hottest:g} °F would be {least:.3g} to {most:.3g} °C"
-    return [finding("temperature_in_fahrenheit", f"{statement}; {other}: is it in that unit?", "oil_temperature_C")]
+    if (low <= coldest and hottest <= high) or not (low <= least and most <= high):
+        return []
+    text = f"{coldest:g} to {hottest:g} °F would be {least:.3g} to {most:.3g} °C: is it in that unit?"
+    return [finding("temperature_in_fahrenheit", text, "oil_temperature_C")]
 
 
 def _backwards(rows: Table) -> list[Finding]:

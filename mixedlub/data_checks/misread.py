@@ -106,7 +106,7 @@ def _a_few_of_each(place: np.ndarray) -> np.ndarray:
 def _scaled(values: np.ndarray) -> np.ndarray:
     """A condition from 0 to 1, one over decades by its logarithm; names are as far apart as its ends.
 
-    >>> _scaled(np.array([1.0, 10.0, 100.0])).ravel().tolist(), _scaled(np.array(["a", "b"])).tolist()
+    >>> _scaled(np.array([1.0, 10.0, 100.0])).ravel().round(9).tolist(), _scaled(np.array(["a", "b"])).tolist()
     ([0.0, 0.5, 1.0], [[0.0, 1.0], [1.0, 0.0]])
     """
     if values.dtype.kind in "US":

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
-from mixedlub.kinds.disc import contact_inputs
-from mixedlub.laws.contact import line_hertz_pressure, point_hertz_pressure
-from mixedlub.rig.plausibility import YIELD_RATIO, yields
-from mixedlub.schema.findings import Finding, finding
+from mixedlub.schema.findings import Finding, collected, finding
 from mixedlub.schema.ranges import atypical
 from mixedlub.schema.table import Table
+from mixedlub.schema.units import UNITS, read_as
+from profiles.errors import InputError
 
 SLIPS: Mapping[float, str] = {
     1e2: "a hundred times",
@@ -26,6 +26,9 @@ SLIPS: Mapping[float, str] = {
 }
 UNIT_TOLERANCE = 2.0
 """Judgement. Factor by which a wrong unit may differ from its power of ten: the accuracy of the base model."""
+COMMON_FACTOR, AGREED = 3.0, 1.25
+"""Judgement. Factor off the base model from which a condition is tried in other units, and the one left by the right
+unit: missing physics seldom multiplies all readings by one factor of that size."""
 LEAST_PART = 0.1
 """Judgement. Least share of the readings that counts as a second unit rather than as outliers."""
 TEN = 10.0
@@ -74,6 +77,46 @@ def of_another_unit(case: Case, y: np.ndarray, base: np.ndarray, fewest: int) ->
     return findings
 
 
+def conditions_of_another_unit(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewest: int) -> list[Finding]:
+    """A condition that brings readings a common factor off the base model to it, read in another unit."""
+    before = _log_ratio(y, base)
+    if before.size < fewest or abs(np.median(before)) < np.log(COMMON_FACTOR):
+        return []
+    found = []
+    for name in _sizes(case, rows):
+        for unit, (factor, added) in UNITS.get(read_as(name), {}).items():
+            table = Table({**rows.columns, name: rows[name] * factor}, rows.source)
+            if added or factor == 1.0 or (after := _in_unit(replace(case, recordings=table), table, y)) is None:
+                continue
+            off, spread = abs(float(np.median(after))), float(np.median(np.abs(after - np.median(after))))
+            if max(off, spread) < np.log(AGREED):
+                found.append((off + spread, name, unit, np.exp(off + spread) - 1.0))
+    if not found:
+        return []
+    _, name, unit, left = min(found, key=lambda one: one[0])
+    text = (
+        f"readings are about {np.exp(np.median(before)):.2g} times what the base model gives; most would agree with it "
+        f"within {100.0 * left:.0f} % if {name} were in {unit}: is it in that unit?"
+    )
+    return [finding("condition_in_other_unit", text, name)]
+
+
+def _in_unit(case: Case, table: Table, y: np.ndarray) -> np.ndarray | None:
+    """Logarithms of the readings over the base model of a changed table; None where the model has no answer."""
+    try:
+        with collected(), np.errstate(all="ignore"):
+            found = _log_ratio(y, Forward(case, table).base_prediction())
+    except InputError:
+        return None
+    return found if found.size else None
+
+
+def _log_ratio(y: np.ndarray, base: np.ndarray) -> np.ndarray:
+    """Logarithm of readings over the base model where both are of one sign."""
+    used = y * base > 0.0
+    return np.asarray(np.log(y[used] / base[used]))
+
+
 def of_two_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewest: int) -> list[Finding]:
     """Readings of which a part differs from the rest by a power of ten, relative to the base model."""
     used = (np.abs(base) > 0) & (np.abs(y) > 0)
@@ -120,8 +163,8 @@ def of_odd_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewes
     return [
         *atypical_sizes(rows, y, case.quantity),
         *too_thick(rows, y, case.quantity),
-        *too_hard_pressed(case, rows),
         *of_another_unit(case, y, base, fewest),
+        *conditions_of_another_unit(case, rows, y, base, fewest),
         *(conditions_of_two_units(case, rows, y, base) or of_two_units(case, rows, y, base, scarce)),
     ]
 
@@ -144,44 +187,6 @@ def too_thick(rows: Table, y: np.ndarray, quantity: str) -> list[Finding]:
     if "pressure_MPa" in rows and rows["pressure_MPa"].min() > LOW_PRESSURE:
         return []
     return atypical(f"recordings.{quantity}", float(np.min(y)), f"the smallest {quantity}")
-
-
-def too_hard_pressed(case: Case, rows: Table) -> list[Finding]:
-    """Loads at which the Hertz pressure of a contact exceeds the yield limit of hard bodies."""
-    contact = case.system.contact
-    if contact is None or "load_N" not in rows:
-        return []
-    values = contact_inputs(contact, rows)
-    load = np.max(rows["load_N"])
-    if contact.geometry == "line":
-        width = values.get("contact_width")
-        pressure = line_hertz_pressure(load / width, values["radius"], values["reduced_modulus"]) if width else 0.0
-    else:
-        radius = values["radius"]
-        pressure = point_hertz_pressure(load, radius, values["transverse_radius"], values["reduced_modulus"])
-    return _yielding(
-        f"the largest load_N, {load:g}", float(pressure), values["reduced_modulus"], "load_N and the radii in [contact]"
-    )
-
-
-def teeth_too_hard_pressed(case: Case, rows: Table, forward: Forward) -> list[Finding]:
-    """Torques at which the Hertz pressure exceeds the yield limit of the tooth flanks."""
-    if case.system.gears is None or "torque_Nm" not in rows:
-        return []
-    pressure, modulus = (np.max(forward.base_quantity(name)) for name in ("hertz_pressure", "reduced_modulus"))
-    where = f"the largest torque_Nm, {np.max(np.abs(rows['torque_Nm'])):g}"
-    return _yielding(where, pressure, modulus, "torque_Nm, and module and face width in [gears]")
-
-
-def _yielding(where: str, pressure: float, modulus: float, cause: str) -> list[Finding]:
-    """A finding where hard bodies of this reduced modulus (Pa) would yield at this pressure (Pa)."""
-    if not yields(np.array(pressure), modulus):
-        return []
-    text = (
-        f"the Hertz pressure would be {1e-9 * pressure:.3g} GPa, where hard bodies yield below "
-        f"{1e-9 * YIELD_RATIO * modulus:.2g} GPa: check the unit of {cause}"
-    )
-    return [finding("pressure_above_yield", text, where)]
 
 
 SIZED = ("entrainment_speed_m_s", "sliding_speed_m_s", "film_thickness_nm")

@@ -19,6 +19,7 @@ from mixedlub.case.folder import (
     unpredicted_runs,
 )
 from mixedlub.case.forward import Forward
+from mixedlub.case.validity import judge_rows
 from mixedlub.data_checks.audit import audit
 from mixedlub.diagnosis.assessment.answer_checks import (
     answer_warnings,
@@ -163,6 +164,7 @@ def diagnosis_of(
         new_model = Forward(case, new_rows)
         new_model.base_prediction()
         warnings += [note for note in new_model.notes if note not in forward.notes] + beyond_recorded(case, new_rows)
+        warnings += judge_rows(new_model).findings
     # Matrices are small: a second thread of linear algebra costs more than it saves, and processes share the work.
     with threadpool_limits(limits=1, user_api="blas"):
         noise_search = search_under_noise(case, forward, exclude, progress)

@@ -8,18 +8,14 @@ from dataclasses import dataclass
 from functools import cache
 from types import MappingProxyType
 
-from mixedlub.chain.effect import REGISTRY, STAGES, Effect
+from mixedlub.chain.effect import EFFECTS, Effect
 from mixedlub.chain.model import Chain, available
-from mixedlub.schema.discovery import loaded
 from profiles.errors import InputError, nearest
 
 
-@cache
 def catalogue() -> Mapping[str, Effect]:
     """All effects by id: those of this package and plug-ins of the entry point ``mixedlub.effects``."""
-    loaded(__name__, "mixedlub.effects")
-    order = sorted(REGISTRY.values(), key=lambda e: (STAGES.index(e.stage), e.id))
-    return MappingProxyType({e.id: e for e in order})
+    return EFFECTS.all
 
 
 @cache
@@ -35,11 +31,7 @@ def known_in(kind: str) -> Mapping[str, Effect]:
 
 def find(ids: str | list[str] | tuple[str, ...], where: str = "effect") -> tuple[Effect, ...]:
     """Effects by one id or several; an unknown id raises an error that names the nearest and the place ``where``."""
-    known, ids = catalogue(), (ids,) if isinstance(ids, str) else ids
-    for name in ids:
-        if not isinstance(name, str) or name not in known:
-            raise InputError(f"no such effect; {nearest(name, known)}", where=where, value=name)
-    return tuple(known[name] for name in ids)
+    return tuple(EFFECTS.find(name, where) for name in ((ids,) if isinstance(ids, str) else ids))
 
 
 def page(effect_id: str) -> Effect:
@@ -75,6 +67,7 @@ def known_effects(
     """
     own = known_in(kind)
     effects = tuple(own[e.id] for e in find(sorted(section), "effects"))
+    _refuse_second_law(effects)
     values: dict[str, dict[str, float]] = {}
     sds: dict[tuple[str, str], float] = {}
     for e in effects:
@@ -106,6 +99,16 @@ def known_effects(
             elif value > 0:
                 sds[e.id, name] = float(value)
     return Known(effects, values, sds)
+
+
+def _refuse_second_law(effects: Sequence[Effect]) -> None:
+    """Refuse two effects that replace the same step."""
+    by_step: dict[str, Effect] = {}
+    for e in effects:
+        first = by_step.setdefault(e.replaces or e.id, e)
+        if first is not e:
+            rule = f"and effects.{first.id} are two laws of one step, the {e.replaces}; leave one of them out"
+            raise InputError(rule, where=f"effects.{e.id}")
 
 
 def _of_law(e: Effect, law: float | str | None) -> dict[str, float]:

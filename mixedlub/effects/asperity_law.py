@@ -46,7 +46,8 @@ MIDDLE_NAYAK = 10.0
     r"\alpha = \frac{16\,\sigma^2}{\pi z_s^2},\quad "
     r"\sigma_s \leftarrow \sigma_s^{1-r}\sigma^{r},\quad z_s \leftarrow (1 - r)\,z_s - d\,\sigma_s",
     source="A. W. Bush, R. D. Gibson, T. R. Thomas, Wear 35 (1975) 87; J. A. Greenwood, J. H. Tripp, Proc. IMechE 185 "
-    "(1970) 625; B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840; against J. A. Greenwood, J. B. P. Williamson, "
+    '(1970) 625, over mean planes (over summit planes it is the option asperities = "greenwood_tripp"); '
+    "B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840; against J. A. Greenwood, J. B. P. Williamson, "
     "Proc. R. Soc. A 295 (1966) 300",
     fingerprint={"oil_temperature": "+", "roughness": "+"},
     separated_by="contact resistance or the real area itself over the film thickness",

@@ -33,7 +33,10 @@ from mixedlub.chain.priors import LogNormal, LogUniform
     fingerprint={"speed": "-"},
     separated_by="a zero check at rest before and after: a drifted zero shifts all films, a layer only the thinnest; "
     "base oil without polymer, where thicker fluid at the walls would need one",
-    applied_after=("inlet_shear_heating", "inlet_shear_thinning", "starvation", "roughness_lay", "film_law"),
+    applied_after=(
+        *("inlet_shear_heating", "inlet_shear_thinning", "starvation", "roughness_lay", "film_law"),
+        "soft_contact_film",
+    ),
     kinds=("film",),
 )
 def boundary_film(film_thickness: np.ndarray, *, thickness: float, joining: float, gain: float) -> np.ndarray:

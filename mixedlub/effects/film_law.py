@@ -4,12 +4,10 @@ import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import LogNormal, Normal, Uniform
-from mixedlub.laws.film import DOWSON_HIGGINSON, DOWSON_TOYODA, Regression, dowson_toyoda, moes
+from mixedlub.laws.film import DOWSON_TOYODA, RIVALS, Regression, dowson_toyoda, moes
 
 MIDDLE = {"speed": 1e-11, "material": 4e3, "load": 1e-4}
 """Definition. Groups U, G and W about which the exponents turn: those of a gear contact."""
-PAN_HAMROCK = Regression(2.922, 0.692, 0.470, -0.166)
-GRUBIN = Regression(1.95, 8.0 / 11.0, 8.0 / 11.0, -1.0 / 11.0)
 
 
 def _against_base(law: Regression) -> dict[str, float]:
@@ -79,9 +77,7 @@ def _against_base(law: Regression) -> dict[str, float]:
     kinds=("gear_pair", "disc", "friction_history", "mesh_friction"),
     replaces="film thickness",
     special_cases={
-        "Dowson and Higginson": _against_base(DOWSON_HIGGINSON),
-        "Pan and Hamrock": _against_base(PAN_HAMROCK),
-        "Grubin": _against_base(GRUBIN),
+        **{name: _against_base(law) for name, law in RIVALS.items()},
         "Moes": {**_against_base(DOWSON_TOYODA), "regimes": 1.0},
     },
 )
@@ -108,7 +104,7 @@ def film_law(
     laws of one kind here, as studies take either for the separation.
 
     >>> case = (0.2214, 2.1630, 0.01489, 214.86e3, 8.3262e-3, 14.81e-9, 226.374e9)   # um, by Dowson and Toyoda
-    >>> round(float(film_law(*case, **_against_base(DOWSON_HIGGINSON))), 3)   # by themselves 0.1671
+    >>> round(float(film_law(*case, **_against_base(RIVALS["Dowson and Higginson"]))), 3)   # by themselves 0.1671
     0.167
     """
     size = reduced_modulus * radius

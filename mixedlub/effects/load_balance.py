@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from mixedlub.base_model.balanced import balanced_film
 from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import LogNormal
-from mixedlub.laws.balanced import balanced_film
 from mixedlub.laws.contact import pressure_per_overlap, summit_separation
 from mixedlub.laws.film import DOWSON_TOYODA
 from roughness.integrals import load_integral
@@ -41,6 +41,7 @@ EXPONENT = DOWSON_TOYODA.speed - DOWSON_TOYODA.material
         "starvation",
         "roughness_lay",
         "film_law",
+        "soft_contact_film",
         "boundary_film",
         "boundary_film_temperature",
     ),

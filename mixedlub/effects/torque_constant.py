@@ -28,6 +28,7 @@ from mixedlub.chain.priors import LogNormal, Normal
     separated_by="runs with the gears out, or a stalled motor against a torque sensor: what is left there is the "
     "motor, not the gears",
     kinds=("friction_map",),
+    special_cases={"without saturation": {"fall": 0.0}},
 )
 def torque_constant(
     reading: np.ndarray, motor_torque: np.ndarray, reference_torque: np.ndarray, *, error: float, fall: float

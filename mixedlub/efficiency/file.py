@@ -36,7 +36,7 @@ class Part(Section):
 
 
 class Bearing(Part):
-    """A rolling bearing and the share that it carries of the mesh force."""
+    """A rolling bearing, and its position on the shaft or the shares of the forces that it carries."""
 
     law: str = _law("bearing", "skf_deep_groove")
     shaft: Side = key("the shaft that it carries", example="pinion", values=SIDES)
@@ -44,8 +44,28 @@ class Bearing(Part):
     bore_mm: Positive = key("bore", example=35.0)
     outside_diameter_mm: Positive = key("outside diameter", example=72.0)
     static_rating_N: Positive | None = key("static load rating C0; only laws that read it", None, example=15300.0)
-    radial_share: NotNegative = key("share of the mesh force in the transverse plane that it carries", 0.5)
-    axial_share: NotNegative = key("share of the axial force of a helical mesh that it carries", 0.0)
+    position_mm: Number | None = key(
+        "position along the shaft from the middle of its wheel, counted to the same side on all shafts; loads then "
+        "follow from the balance of two bearings, in place of shares",
+        None,
+        example=-25.0,
+        alternative=True,
+    )
+    axial: Literal["fixed", "loose", "positive", "negative"] | None = key(
+        "with positions: axial force that it takes; without position_mm it carries thrust alone",
+        None,
+        values={
+            "fixed": "in both directions",
+            "loose": "none, as where it is left out",
+            "positive": "a force towards growing positions",
+            "negative": "a force towards falling positions",
+        },
+        alternative=True,
+    )
+    radial_share: NotNegative = key("share of the mesh force that it carries; adds up to 1 over the shaft", 0.5)
+    axial_share: NotNegative = key(
+        "share of the axial force of a helical mesh that it carries; adds up to 1 over the shaft", 0.0
+    )
     radial_load_N: NotNegative = key("radial load besides", 0.0)
     axial_load_N: NotNegative = key("axial load besides, as of preload", 0.0)
 
@@ -92,6 +112,19 @@ class Other(Part):
     shaft: Side = key("the shaft that it brakes", example="pinion", values=SIDES)
 
 
+class SharedShaft(Section):
+    """The second wheel on the shaft that two stages share."""
+
+    distance_mm: Number = key(
+        "from the middle of the driven wheel of the stage before to the middle of the driving wheel of this one",
+        example=60.0,
+    )
+    angle_deg: Number = key(
+        "from the mate of the stage before to the mate of this one, seen from the shaft, in its sense of rotation",
+        180.0,
+    )
+
+
 class Flanks(Section):
     pinion: SurfaceSection = key("surface of the pinion")
     gear: SurfaceSection = key("surface of the gear")
@@ -112,6 +145,15 @@ class Stage(Section):
         "mesh are the tables below",
         {},
         example={"rolling_resistance": {"law": "Biboulet and Houpert"}},
+    )
+    pinion_thrust: Literal["positive", "negative"] | None = key(
+        "side to which the axial force on the pinion points, along position_mm; only of helical gears with positions",
+        None,
+        values={"positive": "towards growing positions", "negative": "towards falling positions"},
+        alternative=True,
+    )
+    shared_shaft: SharedShaft | None = key(
+        "its driving wheel on the shaft of the driven wheel of the stage before; only with positions", None
     )
     bearings: dict[str, Bearing] = key("one table a bearing, by a name of your own", {})
     seals: dict[str, Seal] = key("one table a seal", {})

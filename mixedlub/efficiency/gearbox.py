@@ -8,12 +8,13 @@ from functools import cached_property
 
 import numpy as np
 
+from mixedlub.chain.ranges import VALID, Reached, findings, flags, validity
 from mixedlub.efficiency.file import EfficiencyFile
 from mixedlub.efficiency.meshes import mesh_losses
 from mixedlub.efficiency.parts import KINDS, StagePart
 from mixedlub.gear import GearPair
+from mixedlub.schema.findings import Finding, gravest_first
 from mixedlub.study import Study
-from mixedlub.study.columns import VALID
 from profiles.errors import InputError
 
 MESH = ("sliding", "rolling")
@@ -57,16 +58,17 @@ class StageModel:
             return torque, speed
         return torque / self.pair.gear_ratio, speed * self.pair.gear_ratio
 
-    def losses(self, torque: np.ndarray, speed: np.ndarray) -> tuple[dict[Origin, np.ndarray], list[str]]:
-        """Losses (W) by origin at torques (N m) and speeds (rad/s) of the driving side, and validity."""
+    def losses(self, torque: np.ndarray, speed: np.ndarray) -> tuple[dict[Origin, np.ndarray], Reached]:
+        """Losses (W) by origin at torques (N m) and speeds (rad/s) of the driving side, and limits with values."""
         own = self.of_pinion(torque, speed)
-        sliding, rolling, validity = mesh_losses(self.study, *own)
+        sliding, rolling, reached = mesh_losses(self.study, *own)
         found = {(self.name, "sliding", ""): sliding, (self.name, "rolling", ""): rolling}
         for part in self.parts:
             found[self.name, part.table, part.name] = part.loss(self.pair, self.oil, *own)
         for (_, origin, name), value in found.items():
             self._check_finite(".".join(filter(None, (origin, name))), value, torque, speed)
-        return found, validity
+        of_parts = [one for part in self.parts for one in part.reached(self.pair, own[1])]
+        return found, [*reached, *of_parts]
 
     def _check_finite(self, place: str, loss: np.ndarray, torque: np.ndarray, speed: np.ndarray) -> None:
         """Refuse numbers at which a law leaves its domain."""
@@ -81,14 +83,37 @@ class StageModel:
 class Losses:
     """Losses of a gearbox at N conditions of its input, in SI.
 
-    ``torque`` and ``speed`` are those of the input, ``by_origin`` the losses (W), ``validity`` words a condition.
+    ``torque`` and ``speed`` are those of the input, ``by_origin`` the losses (W), ``reached`` the limits of each stage
+    with their values.
     """
 
     gearbox: Gearbox
     torque: np.ndarray
     speed: np.ndarray
     by_origin: Mapping[Origin, np.ndarray]
-    validity: tuple[str, ...]
+    reached: Mapping[str, Reached]
+
+    @cached_property
+    def validity(self) -> tuple[str, ...]:
+        """Words a condition; of several stages each code has the name of its own before it."""
+        found = {
+            f"{name}:{code}" if len(self.reached) > 1 else code: grades
+            for name, own in self.reached.items()
+            for code, grades in flags(own, self.torque.shape).items()
+        }
+        exceeded = (self.output_power < 0.0) & (self.torque > 0.0)
+        words = validity(found, self.torque.shape)
+        return tuple(
+            "; ".join([*([] if word == VALID else [word]), EXCEEDED]) if over else word
+            for word, over in zip(words, exceeded, strict=True)
+        )
+
+    @cached_property
+    def findings(self) -> tuple[Finding, ...]:
+        """Conditions outside the range of the model, stage by stage, the gravest first."""
+        places = ((f"stages.{name}", own) for name, own in self.reached.items())
+        each = (findings(own, self.torque.shape, "conditions", place) for place, own in places)
+        return tuple(gravest_first(one for own in each for one in own))
 
     @cached_property
     def input_power(self) -> np.ndarray:
@@ -134,24 +159,13 @@ class Gearbox:
         """
         power, turning = torque * speed, speed
         found: dict[Origin, np.ndarray] = {}
-        words: list[list[str]] = []
+        reached: dict[str, Reached] = {}
         for stage in self.stages:
-            own, validity = stage.losses(np.maximum(power, 0.0) / turning, turning)
+            own, reached[stage.name] = stage.losses(np.maximum(power, 0.0) / turning, turning)
             found |= own
-            words.append([self._named(stage, word) for word in validity])
             power = power - np.sum(list(own.values()), axis=0)
             turning = turning / stage.ratio
-        exceeded = (power < 0.0) & (torque > 0.0)
-        validity = [
-            _together([*each, EXCEEDED] if over else each) for *each, over in zip(*words, exceeded, strict=True)
-        ]
-        return Losses(self, torque, speed, found, tuple(validity))
-
-    def _named(self, stage: StageModel, words: str) -> str:
-        """The validity of a stage; of several stages each word has the name of its own."""
-        if words == VALID or len(self.stages) == 1:
-            return words
-        return "; ".join(f"{stage.name}:{word}" for word in words.split("; "))
+        return Losses(self, torque, speed, found, reached)
 
     def map(self) -> Losses:
         """Losses at every torque and speed of the file, speeds fastest."""
@@ -165,9 +179,3 @@ class Gearbox:
         torque = max(levels.torque_Nm) if cycle.torque_Nm is None else cycle.torque_Nm
         speed = max(levels.speed_rpm) if cycle.speed_rpm is None else cycle.speed_rpm
         return self.losses(np.array([torque]), np.array([speed * np.pi / 30.0]))
-
-
-def _together(words: list[str]) -> str:
-    """The words of all stages; `valid` where all are."""
-    told = [word for word in dict.fromkeys(words) if word != VALID]
-    return "; ".join(told) or VALID

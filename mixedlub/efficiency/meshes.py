@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from mixedlub.chain.model import Model
+from mixedlub.chain.ranges import EXTRAPOLATED, Reached
 from mixedlub.chain.slots import SLOTS
 from mixedlub.gear import LdpSharing
 from mixedlub.study import Study, batch
 from mixedlub.study.heat import LOSS, heat_inputs
 from mixedlub.study.pieces import split
 from mixedlub.study.plan import HEAT, Plan, mesh_inputs
-from mixedlub.study.range_flags import EXTRAPOLATED, as_words, flags
+from mixedlub.study.validity import reached
 
 MOST_SOLVED = 40
 """Torques for which contact problems are solved; between them the share is linear in the logarithm of torque."""
@@ -55,11 +56,11 @@ def load_shares(study: Study, torque: np.ndarray) -> Shares:
     return between
 
 
-def mesh_losses(study: Study, torque: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, np.ndarray, list[str]]:
-    """Sliding and rolling loss (W) of a mesh, and validity of each condition.
+def mesh_losses(study: Study, torque: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, np.ndarray, Reached]:
+    """Sliding and rolling loss (W) of a mesh, and its limits with the values of each condition.
 
     ``torque`` (N m) and ``speed`` (rad/s) of the pinion have one entry a condition. Without torque nothing slides under
-    load, and rolling is that of a vanishing load.
+    load, rolling is that of a vanishing load, and nothing of the contact is judged.
     """
     pressed = np.maximum(torque, LEAST_TORQUE * max(1.0, float(torque.max())))
     shares = load_shares(study, pressed)
@@ -69,12 +70,16 @@ def mesh_losses(study: Study, torque: np.ndarray, speed: np.ndarray) -> tuple[np
         for start in range(0, torque.size, step)
     ]
     sliding, rolling = (np.concatenate([part[index] for part in parts]) for index in (0, 1))
-    return sliding * (torque / pressed), rolling, [word for part in parts for word in part[2]]
+    limits = [
+        (limit, np.where(torque > 0.0, np.concatenate([part[2][i][1] for part in parts]), np.nan))
+        for i, (limit, _) in enumerate(parts[0][2])
+    ]
+    return sliding * (torque / pressed), rolling, limits
 
 
 def _computed(
     study: Study, shares: Shares, torque: np.ndarray, speed: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, list[str]]:
+) -> tuple[np.ndarray, np.ndarray, Reached]:
     """The same of loaded conditions, all at once."""
     plan = replace(study.plan, inputs=conditioned(study, shares, torque, speed), shape=(1, 1, torque.size, 1))
     values = {name: np.empty(plan.shape) for name in batch.names(plan)}
@@ -83,8 +88,13 @@ def _computed(
     for block, found in batch.run(plan, split(plan.shape, (1, 1, most, 1))):
         for name, part in found.items():
             values[name][block] = part
-    index, words = as_words(_of_loss(plan, flags(plan, values)), plan.shape)
-    return values["mesh_loss"].ravel(), values["rolling_loss"].ravel(), [words[i] for i in index.ravel()]
+    idle = _idle(plan)
+    limits = [
+        (limit, np.broadcast_to(value, plan.shape).ravel())
+        for limit, value in reached(plan, values)
+        if limit.code not in idle
+    ]
+    return values["mesh_loss"].ravel(), values["rolling_loss"].ravel(), limits
 
 
 def conditioned(study: Study, shares: Shares, torque: np.ndarray, speed: np.ndarray) -> dict[str, Any]:
@@ -98,12 +108,11 @@ def conditioned(study: Study, shares: Shares, torque: np.ndarray, speed: np.ndar
     return inputs
 
 
-def _of_loss(plan: Plan, found: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """The flags of what the loss depends on: a law of friction need not read film and asperities."""
+def _idle(plan: Plan) -> set[str]:
+    """Codes of what the loss does not depend on: a law of friction need not read film and asperities."""
     model = Model(plan.chain(plan.options), tuple(plan.inputs), LOCAL, plan.effects)
     made = {name for step in model.steps for name in step.outputs}
     chosen = {slot.choices[getattr(plan.options, slot.option)].law.__name__: slot.quantity for slot in SLOTS}
-    idle = {f"{EXTRAPOLATED}{name}" for name, quantity in chosen.items() if quantity not in made}
+    idle = {f"{EXTRAPOLATED}:{name}" for name, quantity in chosen.items() if quantity not in made}
     idle |= set() if "area_ratio" in made else set(OF_ASPERITIES)
-    idle |= set() if "film_thickness" in made else {"film_above_contact_width"}
-    return {code: where for code, where in found.items() if code not in idle}
+    return idle | (set() if "film_thickness" in made else {"film_above_contact_width"})

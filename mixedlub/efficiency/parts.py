@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from mixedlub.chain.documented import check_given
+from mixedlub.chain.documented import few
 from mixedlub.chain.part_law import GIVEN, Kind, PartLaw
+from mixedlub.chain.ranges import UNBOUNDED, Limit, Reached, declared
 from mixedlub.efficiency.file import Bearing, Churning, Part, Stage
+from mixedlub.efficiency.shafts import Load
 from mixedlub.gear import GearPair
-from mixedlub.parts import find, series_coefficients
+from mixedlub.laws.drag import FAST_BATH, bath_acceleration
+from mixedlub.parts import find, series, series_coefficients
 from mixedlub.rig.lubricant import Lubricant
+from mixedlub.schema.findings import Finding, finding
 from profiles.errors import InputError
 
 KINDS: Mapping[str, Kind] = {
@@ -26,9 +30,14 @@ KINDS: Mapping[str, Kind] = {
     "others": "other",
 }
 """Tables of a stage and the kind of their parts."""
+BATH = "bath_acceleration"
+"""Quantity that decides about the law of churning."""
 OF_ANY_LAW = {"law", "coefficients", "factor", "count", "shaft", "wheel", "series"}
-OF_LOAD = {"radial_share", "axial_share", "radial_load_N", "axial_load_N"}
+OF_LOAD = {"position_mm", "axial", "radial_share", "axial_share", "radial_load_N", "axial_load_N"}
 """Keys from which the loads of a bearing follow."""
+NO_LOAD = (0.0, 0.0)
+LEAST_RATING, LARGEST_RATING = 0.3, 200.0
+"""Static rating over the square of the mean diameter (N/mm2): thin ball bearings 1, spherical thrust bearings 100."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,52 +50,97 @@ class StagePart:
     section: Part
     coefficients: Mapping[str, float]
     side: int
+    load: Load = NO_LOAD
 
     def loss(self, pair: GearPair, oil: Mapping[str, float], torque: np.ndarray, speed: np.ndarray) -> np.ndarray:
         """Its power loss (W) at torques (N m) and speeds (rad/s) of the pinion."""
         own = speed if self.side == 0 else speed / pair.gear_ratio
-        state = {**_wheel(pair, self.side), **oil, "shaft_speed": own, **self._loads(pair, torque), **self._given()}
+        state = {**_wheel(pair, self.side), **oil, "shaft_speed": own, **self._loads(torque), **self._given()}
         found = np.asarray(self.law.law(*(state[name] for name in self.law.reads), **self.coefficients))
         power = found * own if self.law.kind in ("bearing", "seal", "other") else found
         return np.broadcast_to(self.section.factor * self.section.count * power, torque.shape)
+
+    def reached(self, pair: GearPair, speed: np.ndarray) -> Reached:
+        """Limits of its law with their values at speeds (rad/s) of the pinion."""
+        if BATH not in declared(self.law.law):
+            return []
+        own = speed if self.side == 0 else speed / pair.gear_ratio
+        size = (pair.operating_radius[self.side], pair.face_width, pair.normal_module)
+        bath = bath_acceleration(own, *map(np.asarray, size))
+        advice = (
+            f"churning of {self.name} by {self.law.title} goes over to the law of high speed, which viscosity does not "
+            f"enter, between the ends of this range and {FAST_BATH:g} m/s^2: the loss may change by a factor there"
+        )
+        return [(Limit("churning_law_changes", BATH, declared(self.law.law)[BATH], advice, UNBOUNDED), bath)]
 
     def _given(self) -> dict[str, float]:
         values = self.section.model_dump()
         return {n: values[k] * unit for n, (k, unit) in GIVEN.items() if n in self.law.reads}
 
-    def _loads(self, pair: GearPair, torque: np.ndarray) -> dict[str, np.ndarray]:
+    def _loads(self, torque: np.ndarray) -> dict[str, np.ndarray]:
         if not isinstance(self.section, Bearing):
             return {}
-        force = torque / pair.base_radius[0]
-        thrust = force * np.tan(abs(pair.base_helix_angle))
+        radial, axial = self.load
         return {
-            "radial_load": self.section.radial_share * force + self.section.radial_load_N,
-            "axial_load": self.section.axial_share * thrust + self.section.axial_load_N,
+            "radial_load": radial * torque + self.section.radial_load_N,
+            "axial_load": axial * torque + self.section.axial_load_N,
         }
 
 
-def parts_of(stage: Stage, pair: GearPair, where: str) -> Iterator[StagePart]:
-    """The parts of a stage, each checked against its law; ``where`` is the place of the stage."""
+def parts_of(stage: Stage, pair: GearPair, loads: Mapping[str, Load], where: str) -> Iterator[StagePart]:
+    """The parts of a stage, each checked against its law.
+
+    ``loads`` are of the bearings by name, ``where`` is the place of the stage.
+    """
     for table in KINDS:
         for name, section in getattr(stage, table).items():
             place = f"{where}.{table}.{name}"
             part = _part(table, name, section, place)
             if isinstance(section, Churning):
                 _check_immersion(section, pair.operating_radius[part.side], place)
-            yield part
+            yield replace(part, load=loads.get(name, NO_LOAD)) if isinstance(section, Bearing) else part
 
 
 def _part(table: str, name: str, section: Part, where: str) -> StagePart:
     law = find(KINDS[table], section.law, f"{where}.law")
     _check_keys(law, section, where)
     given: dict[str, float] = dict(section.coefficients)
-    series = getattr(section, "series", None)
-    if series is not None:
-        given = {**series_coefficients(law, series, f"{where}.series"), **given}
-    check_given(law, given, f"{where}.coefficients", f"mixedlub parts {law.name}")
+    name_of_series = getattr(section, "series", None)
+    if name_of_series is not None:
+        given = {**series_coefficients(law, name_of_series, f"{where}.series"), **given}
+    elif law.series and (missing := [c.name for c in law.coefficients if c.default is None and c.name not in given]):
+        names = few(list(series()[law.series]))
+        rule = f"needs {few(missing)}: give `series` ({names}), or these by `coefficients`, from the catalogue"
+        raise InputError(rule, where=where)
+    law.check_given(given, f"{where}.coefficients", f"mixedlub parts {law.name}")
     check_name(name, where)
     side = getattr(section, "shaft", getattr(section, "wheel", "pinion"))
     return StagePart(table, name, law, section, law.values(given), 0 if side == "pinion" else 1)
+
+
+def bearing_findings(
+    part: StagePart, pair: GearPair, oil: Mapping[str, float], where: str, *, idles: bool
+) -> Iterator[Finding]:
+    """Doubt of a static rating that no bearing of this size has; note of a bearing that turns freely.
+
+    ``idles``: conditions without torque are computed.
+    """
+    section = part.section
+    if not isinstance(section, Bearing):
+        return
+    place, mean = f"{where}.bearings.{part.name}", 0.5 * (section.bore_mm + section.outside_diameter_mm)
+    rating = section.static_rating_N
+    if rating is not None and not LEAST_RATING <= rating / mean**2 <= LARGEST_RATING:
+        low, high = (f"{limit * mean**2:.2g}" for limit in (LEAST_RATING, LARGEST_RATING))
+        unit = "kN where N is asked for?" if rating < LEAST_RATING * mean**2 else "is its unit N?"
+        text = f"{rating:g} N is outside {low} to {high} N, which bearings of this size have ({unit})"
+        yield finding("static_rating_implausible", text, f"{place}.static_rating_N")
+    if idles and not part.loss(pair, oil, np.zeros(1), np.array([100.0])).any():
+        text = (
+            f"loses nothing at zero torque: {part.law.name} has no torque without load; drag of the oil and the least "
+            "load of the bearing are not in it: give radial_load_N or axial_load_N (weight, preload)"
+        )
+        yield finding("bearing_free_without_load", text, place)
 
 
 def _check_keys(law: PartLaw, section: Part, where: str) -> None:
@@ -116,7 +170,7 @@ def check_name(name: str, where: str) -> None:
 
 def _wheel(pair: GearPair, side: int) -> dict[str, Any]:
     """Sizes of a wheel by the quantities of part laws."""
-    root = pair.reference_radius[side] + pair.normal_module * (pair.profile_shift[side] - 1.25)
+    root = pair.reference_radius[side] + pair.normal_module * (pair.profile_shift[side] - pair.dedendum)
     return {
         "wheel_radius": pair.operating_radius[side],
         "face_width": pair.face_width,

@@ -8,7 +8,8 @@ from mixedlub.chain.effect import Effect
 from mixedlub.chain.slots import SLIDING_POWER
 from mixedlub.efficiency.file import EfficiencyFile, Stage
 from mixedlub.efficiency.gearbox import Gearbox, StageModel
-from mixedlub.efficiency.parts import check_name, oil_state, parts_of
+from mixedlub.efficiency.parts import bearing_findings, check_name, oil_state, parts_of
+from mixedlub.efficiency.shafts import bearing_loads
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.schema.findings import Finding
 from mixedlub.schema.toml_file import parse, read_toml
@@ -26,17 +27,23 @@ SHARED = ("boundary_friction", "gears", "lubricant", "options", "effects")
 def read_gearbox(path: Path, file: EfficiencyFile | None = None) -> tuple[Gearbox, tuple[Finding, ...]]:
     """The gearbox of a file, checked, with notes for its reader; ``file`` replaces the content of the file."""
     file = parse(EfficiencyFile, read_toml(path), str(path)) if file is None else file
-    stages: list[StageModel] = []
-    notes: list[Finding] = []
+    studies: dict[str, Study] = {}
     for name, section in file.stages.items():
         where = f"stages.{name}"
         check_name(name, f"{path}: {where}")
-        study = _study(path, where, section)
-        _check_effects(study.effects, where)
+        studies[name] = _study(path, where, section)
+        _check_effects(studies[name].effects, where)
+    loads, notes = bearing_loads(file.stages, {name: one.pair for name, one in studies.items()})
+    torques = (*file.conditions.torque_Nm, *(file.duty.torque_Nm if file.duty else ()))
+    stages: list[StageModel] = []
+    for name, study in studies.items():
+        section, own = file.stages[name], {part: load for (stage, part), load in loads.items() if stage == name}
         oil = oil_state(study.oil, section.oil_temperature_C + ZERO_CELSIUS)
-        parts = tuple(parts_of(section, study.pair, f"{path}: {where}"))
+        parts = tuple(parts_of(section, study.pair, own, f"{path}: stages.{name}"))
         stages.append(StageModel(name, section.driving, study, oil, parts))
         notes += study.notes
+        for part in parts:
+            notes += bearing_findings(part, study.pair, oil, f"stages.{name}", idles=0.0 in torques)
     return Gearbox(file, tuple(stages)), tuple(notes)
 
 

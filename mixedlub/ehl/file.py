@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
+from mixedlub.base_model.limits import contact_limits
+from mixedlub.chain.ranges import Reached, findings
 from mixedlub.chain.slots import ASPERITY_LOAD
 from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.mixed import Asperities, laws, solve_mixed, yielding
 from mixedlub.ehl.oil.file import oil_of
 from mixedlub.ehl.oil.oil import Oil
-from mixedlub.ehl.solve import STEEL, Way, build_contacts, check
+from mixedlub.ehl.solve import Way, build_contacts, check
 from mixedlub.gear import mesh
 from mixedlub.gear.build import gear_pair, sharing
 from mixedlub.laws.contact import reduced_modulus
@@ -22,6 +24,7 @@ from mixedlub.laws.load import gear_line_load
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.schema.findings import Finding, collected
 from mixedlub.schema.section import Number, Section, Whole, examples, key
+from mixedlub.schema.surface_file import STEEL
 from mixedlub.schema.system_file import Gears
 from mixedlub.schema.toml_file import parse, read_toml
 from profiles.errors import InputError
@@ -109,7 +112,7 @@ class AsperitySection(Section):
     m4_per_um2: Positive = key("variance of their curvatures", example=0.0021)
     # The laws are those of a table, which a type checker does not evaluate.
     law: Literal[LAWS] = key(  # type: ignore[valid-type]
-        "law of the asperities", LAWS[0], values={name: ASPERITY_LOAD.choices[name].meaning for name in LAWS}
+        "law of the asperities", LAWS[0], values={name: ASPERITY_LOAD.choices[name].title for name in LAWS}
     )
     hardness_GPa: Positive | None = key(
         "indentation hardness of the softer body, for asperities that yield", None, example=6.0, alternative=True
@@ -161,7 +164,7 @@ class EhlFile(Section):
 class Problem:
     """Contacts of a file with their oil; ``position`` is the place on a path of contact (m), NaN of others.
 
-    ``notes`` are what was assumed of the oil.
+    ``notes`` are contacts outside the range of elastic bodies, and assumptions on the oil.
     """
 
     file: EhlFile
@@ -169,6 +172,12 @@ class Problem:
     contacts: Contacts
     position: np.ndarray
     notes: tuple[Finding, ...] = ()
+
+    @property
+    def reached(self) -> Reached:
+        """Limits of bodies that stay elastic, with the values of the contacts."""
+        limits = contact_limits({"reduced_modulus": self.contacts.modulus})
+        return [(limit, self.contacts.pressure) for limit in limits if limit.quantity == "hertz_pressure"]
 
 
 def read_problem(path: Path) -> Problem:
@@ -188,7 +197,8 @@ def read_problem(path: Path) -> Problem:
         check(oil, contacts, thermal=file.thermal)
     except InputError as error:
         raise InputError(error.rule, where=f"{path}: {error.where}", value=error.value) from None
-    return Problem(file, oil, contacts, position, tuple(notes))
+    found = Problem(file, oil, contacts, position)
+    return replace(found, notes=(*findings(found.reached, contacts.pressure.shape, "contacts"), *notes))
 
 
 def solved_problem(problem: Problem, way: Way) -> xarray.Dataset:

@@ -14,13 +14,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mixedlub.base_model.balanced import balanced_film, sharing_exponent
+from mixedlub.base_model.chains import ASPERITIES
 from mixedlub.chain.model import Model
 from mixedlub.chain.slots import ASPERITY_AREA, ASPERITY_LOAD
 from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.ehl.solve import CONVERGED, DIVERGED, Way
-from mixedlub.laws.balanced import balanced_film, sharing_exponent
-from mixedlub.laws.base_models import ASPERITIES
 from mixedlub.laws.contact import mean_hertz_pressure
 from mixedlub.laws.film import dowson_toyoda
 

@@ -16,6 +16,7 @@ from mixedlub.ehl.measures import CHECKS, PROFILES, QUANTITIES, measures
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.ehl.run import parts_folder, run_parts
 from mixedlub.laws.contact import reduced_modulus
+from mixedlub.schema.surface_file import STEEL
 from profiles.errors import InputError, refuse_other
 
 if TYPE_CHECKING:
@@ -23,8 +24,6 @@ if TYPE_CHECKING:
 
 CONVERGED, DIVERGED = "converged", "no solution"
 """Words of the status."""
-STEEL = {"conductivity": 46.0, "density": 7850.0, "heat_capacity": 470.0}
-"""Thermal conductivity (W/(m K)), density (kg/m^3) and specific heat (J/(kg K)) of steel."""
 LARGEST_STRESS_IMBALANCE = 1e-6
 """Change of the shear stress in its last step above which a contact has no solution."""
 FILM_SHARE = 0.5

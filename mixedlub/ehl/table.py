@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
+from mixedlub.chain.ranges import flags, validity
 from mixedlub.ehl.file import Problem
 from mixedlub.ehl.measures import CHECKS, PROFILES, QUANTITIES, Quantity
 from mixedlub.ehl.mixed import SHARES
@@ -51,6 +52,7 @@ TABLES = {
             moes_load="Moes' load parameter M",
             moes_material="Moes' material parameter L",
             status="text: converged, or why there is no solution",
+            validity="text: valid, or each range that the contact leaves",
         ),
         *RESULTS,
         *described(QUANTITY_error_percent="estimated error of the column before"),
@@ -68,6 +70,7 @@ def contact_table(problem: Problem, data: xarray.Dataset) -> pd.DataFrame:
     load, material = contacts.moes(*problem.oil.at_ambient(contacts.oil_temperature))
     table = frame_of(contacts, CONDITIONS).assign(moes_load=load, moes_material=material)
     table["status"] = data["status"].to_numpy()
+    table["validity"] = validity(flags(problem.reached, contacts.pressure.shape), contacts.pressure.shape)
     for one in RESULTS:
         table[one.name] = one.of(data[one.output].to_numpy())
         table[f"{one.output}_error_percent"] = 100.0 * data[f"{one.output}_error"].to_numpy()

@@ -11,7 +11,6 @@ import pandas as pd
 from pydantic import Field, field_validator
 
 from mixedlub import friction
-from mixedlub.chain.documented import check_given
 from mixedlub.evaluate.evaluation import (
     BEYOND_VISCOSITY,
     Curve,
@@ -26,10 +25,10 @@ from mixedlub.evaluate.loss_fit import Contacts, Fit, Scatter, calibrated, conta
 from mixedlub.evaluate.result_columns import CALIBRATION
 from mixedlub.gear import at_roll_angle, local_loss_factor, mesh
 from mixedlub.kinds import columns
-from mixedlub.laws.contact import mean_roughness
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.rig import Rig
-from mixedlub.schema.findings import collected
+from mixedlub.rig.surface import mean_assumed
+from mixedlub.schema.findings import collected, report
 from mixedlub.schema.section import Number, key
 from mixedlub.schema.surface_file import SurfaceSection
 from mixedlub.schema.system_file import Gears, Lubricant, RigFile
@@ -117,7 +116,7 @@ def _checked(file: CalibrationFile, table: Table) -> None:
     if FACTOR in file.coefficients:
         raise InputError("belongs in surface_factor_bounds", where=f"coefficients.{FACTOR}")
     ends = dict.fromkeys(file.bounds, 0.0)
-    check_given(LAW, {**file.coefficients, **ends}, "coefficients", f"mixedlub friction-laws {LAW.name}")
+    LAW.check_given({**file.coefficients, **ends}, "coefficients", f"mixedlub friction-laws {LAW.name}")
     check_surfaces(file.surfaces, file.surface_factor_bounds, "surface_factor_bounds")
     for name in ("pinion_surface", "gear_surface"):
         check_surfaces(file.surfaces, table[name], f"{table.source}: {name}")
@@ -134,9 +133,12 @@ def _checked(file: CalibrationFile, table: Table) -> None:
 
 def _roughness(rig: Rig, table: Table) -> np.ndarray:
     """Mean Ra of both flanks of each reading (m)."""
-    heights = {name: rig.surface(name).m0 for name in {*table["pinion_surface"], *table["gear_surface"]}}
-    first, second = (np.array([heights[n] for n in table[f"{side}_surface"]]) for side in ("pinion", "gear"))
-    return np.asarray(mean_roughness(first + second, first / (first + second)))
+    surfaces = [rig.surface(name) for name in sorted({*table["pinion_surface"], *table["gear_surface"]})]
+    for one in mean_assumed(surfaces):
+        report(one)
+    ra = {one.name: one.mean_roughness for one in surfaces}
+    first, second = (np.array([ra[n] for n in table[f"{side}_surface"]]) for side in ("pinion", "gear"))
+    return np.asarray(0.5 * (first + second))
 
 
 def _scatter(file: CalibrationFile, table: Table) -> Scatter:

@@ -96,12 +96,19 @@ def cycle_pattern(pair: GearPair, shared: Sharing, torque: float, first: float, 
 
 
 def friction_of_cycle(
-    average: Average, divided: Division, pattern: Pattern, leak: float, meters: Meters, name: str
+    average: Average,
+    divided: Division,
+    pattern: Pattern,
+    turned: Pattern,
+    leak: float,
+    meters: Meters,
+    name: str,
 ) -> Found:
     """Force and friction of the average mesh cycle (displacements in um), with their standard deviations.
 
-    ``leak`` is the displacement that the force along the line of action causes. Friction follows by least squares from
-    the harmonics kept, so that what the filter takes from the force does not lower it.
+    ``leak`` is the displacement that the force along the line of action causes, ``turned`` the pattern at a roll angle
+    one standard deviation on. Friction follows by least squares from the harmonics kept, so that the filter does not
+    lower it. Its mean is over the path of contact, weighted with load and sliding.
     """
     count = average.mean.shape[0]
     keep = np.ones(divided.inverse.size)
@@ -113,9 +120,9 @@ def friction_of_cycle(
     zero[0] = meters.zero * divided.inverse[0].real * keep[0]
     shared.append(zero)
     for order in range(harmonics.size):
-        for turned in (1.0, 1j) if order else (1.0,):
+        for quadrature in (1.0, 1j) if order else (1.0,):
             one = np.zeros_like(harmonics)
-            one[order] = harmonics[order] * turned * meters.response_noise
+            one[order] = harmonics[order] * quadrature * meters.response_noise
             shared.append(one)
     errors = np.concatenate([own, np.array(shared)])
     design = _as_real(divided.harmonics(pattern.force) * divided.gain * keep).T
@@ -126,6 +133,9 @@ def friction_of_cycle(
     inverse = np.linalg.pinv(design)
     friction, moved = inverse @ _as_real(harmonics), _as_real(errors) @ inverse.T
     of_load = friction * meters.normal_force
+    elsewhere = _as_real(divided.harmonics(turned.force) * divided.gain * keep).T
+    of_angle = np.linalg.pinv(elsewhere) @ _as_real(harmonics) - friction
+    common = np.stack([of_load, of_angle])
     of_turns = moved[: len(own)]
     fitted = over_period(_as_complex(design @ friction), count)
     force = over_period(harmonics, count)
@@ -135,10 +145,10 @@ def friction_of_cycle(
         force_sd_own=np.sqrt((over_period(own, count) ** 2).sum(axis=0)),
         fitted=fitted,
         friction=friction,
-        friction_sd=np.sqrt((moved**2).sum(axis=0) + of_load**2),
+        friction_sd=np.sqrt((moved**2).sum(axis=0) + (common**2).sum(axis=0)),
         friction_sd_own=np.sqrt((of_turns**2).sum(axis=0)),
         mean=float(pattern.work @ friction),
-        mean_sd=float(np.sqrt(((moved @ pattern.work) ** 2).sum() + (pattern.work @ of_load) ** 2)),
+        mean_sd=float(np.linalg.norm(np.concatenate([moved, common]) @ pattern.work)),
         mean_sd_own=float(np.sqrt(((of_turns @ pattern.work) ** 2).sum())),
         misfit=float(np.sqrt(((force - fitted) ** 2).mean())),
     )

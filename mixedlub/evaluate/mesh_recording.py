@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 import pandas as pd
@@ -12,6 +13,7 @@ from pydantic import Field, model_validator
 from mixedlub.evaluate.evaluation import CaseDraft, case_draft, check_surfaces
 from mixedlub.schema.section import Number, Section, key
 from mixedlub.schema.system_file import Gears, RigFile
+from profiles.errors import InputError
 
 Positive = Annotated[Number, Field(gt=0.0)]
 CONDITIONS = ("torque_Nm", "speed_rpm", "oil_temperature_C", "pinion_surface", "gear_surface")
@@ -40,6 +42,16 @@ class SpurGearFile(RigFile):
             angle = self.gears.helix_angle_deg
             raise ValueError(f"gears.helix_angle_deg = {angle:g}: one roll angle a tooth holds for spur gears")
         return self
+
+
+def not_negative(place: str, found: Mapping[str, Any], turn: str) -> Iterator[str]:
+    """Refuse friction that drives the sliding, and tell one that may do so; ``turn`` says which sign to turn."""
+    mean, high = found["mean_friction"], found["mean_friction_high90"]
+    if high < 0.0:
+        rule = f"mean friction is below zero (90 % up to {high:.3g}), as if it drove the teeth: {turn}"
+        raise InputError(rule, where=place, value=round(mean, 5))
+    if mean < 0.0:
+        yield f"{place}: mean friction {mean:.3g} is below zero, within its uncertainty; where it is not noise, {turn}"
 
 
 def mesh_friction_case(

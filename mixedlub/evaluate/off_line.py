@@ -14,7 +14,7 @@ from pydantic import Field, model_validator
 from mixedlub.evaluate.evaluation import CaseDraft, Curve, Evaluated, Evaluation, Panel
 from mixedlub.evaluate.frequency_response import Response, division
 from mixedlub.evaluate.mesh_force import Found, Meters, cycle_pattern, friction_of_cycle
-from mixedlub.evaluate.mesh_recording import MeshRecording, SpurGearFile, mesh_friction_case
+from mixedlub.evaluate.mesh_recording import MeshRecording, SpurGearFile, mesh_friction_case, not_negative
 from mixedlub.evaluate.outlying import check_turns
 from mixedlub.evaluate.result_columns import OFF_LINE
 from mixedlub.evaluate.synchronous import Average, cycle_average, few_turns
@@ -30,6 +30,10 @@ from profiles.errors import InputError
 SOURCE = "Vaishya and Houser 1999, AGMA 99FTMS1, sections 6 to 8"
 Positive = Annotated[Number, Field(gt=0.0)]
 Share = Annotated[Number, Field(ge=0.0, lt=1.0)]
+TURN = (
+    "turn the sign of off_line_displacement_um (positive where friction of recess moves the shaft), in the static test "
+    "too, or of the response"
+)
 LEAK = 0.02
 """Displacement off the line of action over that along it up to which the source takes coupling as negligible."""
 
@@ -59,6 +63,7 @@ class MeterSection(Section):
     response_sd: Share = key("of the response or stiffness, relative; one error for all frequencies", 0.03)
     response_noise: Share = key("of the response, relative; from frequency to frequency", 0.02)
     zero_sd_um: Annotated[Number, Field(ge=0.0)] = key("of the zero of the probe", 0.1)
+    roll_angle_sd_deg: Annotated[Number, Field(ge=0.0)] = key("of the roll angle at the pulse", 0.05)
     normal_force_sd: Share = key("of the normal force that torque and load sharing mean, relative", 0.02)
 
 
@@ -203,13 +208,17 @@ def run(file: OffLineFile, path: Path) -> Evaluated:
             file.filter.recentre == "mean",
         )
         first, points = one.roll_angle_at_pulse_deg, file.filter.local_points
-        pattern = cycle_pattern(pair, shared, one.torque_Nm, first, points, SAMPLES)
-        found = friction_of_cycle(average, divided, pattern, coupling * line, meters, name)
+        pattern, turned = (
+            cycle_pattern(pair, shared, one.torque_Nm, angle, points, SAMPLES)
+            for angle in (first, first + file.meters.roll_angle_sd_deg)
+        )
+        found = friction_of_cycle(average, divided, pattern, turned, coupling * line, meters, name)
         forces.append(_force_table(name, one, found, average))
         wider = few_turns(average.turns)
         local.append(_local_table(name, one, found, pattern.roll_angle, wider))
         harmonics = divided.inverse.size - 1
         summary.append(_summary(name, one, found, harmonics, wider) | {"coupling_percent": 100.0 * leak})
+        notes += not_negative(f"recordings.{name}", summary[-1], TURN)
     tables = {
         "friction_force": pd.concat(forces, ignore_index=True),
         "friction": pd.concat(local, ignore_index=True),
@@ -265,8 +274,9 @@ def _summary(name: str, one: MeshRecording, found: Found, harmonics: int, wider:
 def _lines(recordings: pd.DataFrame) -> Iterator[str]:
     for row in recordings.to_dict("records"):
         yield (
-            f"{row['recording']}: mean friction {row['mean_friction']:.4f} (sd {row['mean_friction_sd']:.2g}) from "
-            f"{row['harmonics']} harmonics of the mesh, misfit {row['misfit_N']:.2g} N"
+            f"{row['recording']}: mean friction {row['mean_friction']:.4f} (sd {row['mean_friction_sd']:.2g}) over the "
+            f"path, weighted with load and sliding, from {row['harmonics']} harmonics of the mesh, misfit "
+            f"{row['misfit_N']:.2g} N"
         )
 
 

@@ -213,7 +213,7 @@ def _signs(law: Law, first: np.ndarray) -> dict[str, float]:
     if not is_determined(design, "first"):
         return {}
     fit = least_squares(design, np.log(table["friction_coefficient"].to_numpy()))
-    return {"first_less_second_of_log": float(fit.params["first"]), "signs_p_value": float(fit.pvalues["first"])}
+    return {"first_less_second_of_log": float(fit.coefficients["first"]), "signs_p_value": float(fit.p_values["first"])}
 
 
 def _law_text(file: RegressionFile, law: Law, oil: Oil) -> str:

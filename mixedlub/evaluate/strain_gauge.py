@@ -14,7 +14,7 @@ from pydantic import Field
 
 from mixedlub.evaluate.evaluation import CaseDraft, Curve, Evaluated, Evaluation, Panel
 from mixedlub.evaluate.influence import Influence, fit_influence
-from mixedlub.evaluate.mesh_recording import MeshRecording, SpurGearFile, mesh_friction_case
+from mixedlub.evaluate.mesh_recording import MeshRecording, SpurGearFile, mesh_friction_case, not_negative
 from mixedlub.evaluate.outlying import check_turns
 from mixedlub.evaluate.result_columns import STRAIN_GAUGE
 from mixedlub.evaluate.synchronous import Average, few_turns, synchronous_average
@@ -96,6 +96,12 @@ class StrainGaugeFile(SpurGearFile):
     friction: FrictionSection = key("how forces become friction", FrictionSection())
 
 
+SMEARED_SDS = 2.0
+"""Judgement. Standard deviations of the roll angle by which the step of friction may lie beside the pitch point."""
+TURN = (
+    "turn the sign of friction_force_N of the calibration (positive towards the tip), or of the recording's gauges; or "
+    "name the other wheel in gauges.wheel"
+)
 LARGEST_DEVIATION = 0.1
 """Judgement. Deviation of the normal force from torque over base radius that gear dynamics seldom explain."""
 CALIBRATION = (
@@ -171,7 +177,8 @@ def run(file: StrainGaugeFile, path: Path) -> Evaluated:
     for name, one in file.recordings.items():
         average = _average(file, one, path.parent)
         turned = one.roll_angle_at_pulse_deg + meshing.direction * average.angle
-        blurred = replace(meshing, margin=max(meshing.margin, average.spacing))
+        smeared = average.spacing + SMEARED_SDS * meters.roll_angle
+        blurred = replace(meshing, margin=max(meshing.margin, average.spacing), smeared=smeared)
         forces = forces_of(influence, blurred, turned, average, meters, name)
         notes += _doubts(name, forces, one.torque_Nm / pair.base_radius[0])
         offset = [np.nan]
@@ -181,8 +188,9 @@ def run(file: StrainGaugeFile, path: Path) -> Evaluated:
                 f"recording {name}: friction forces moved by {', '.join(f'{o:.3g}' for o in offset)} N to be centred; "
                 "nothing that differs between approach and recess alone can be found in them"
             )
-        parts.append(_table(name, one, forces, pair, file.gauges.wheel, few_turns(average.turns)))
-        summary.append(_summary(name, one, forces, meshing, pair, average, offset))
+        parts.append(_table(name, one, forces, blurred, pair, file.gauges.wheel, few_turns(average.turns)))
+        summary.append(_summary(name, one, forces, blurred, pair, average, offset))
+        notes += not_negative(f"recordings.{name}", summary[-1], TURN)
     table = pd.concat(parts, ignore_index=True)
     tables = {"forces": table, "recordings": pd.DataFrame(summary), "influence": _influence_table(influence, meshing)}
     case = _case(file, path, table)
@@ -203,7 +211,9 @@ def _doubts(name: str, forces: Forces, nominal: float) -> Iterator[str]:
         yield f"recording {name}: normal force {ratio:.3g} of torque over base radius; the source has it within 3 %"
 
 
-def _table(name: str, one: MeshRecording, forces: Forces, pair: GearPair, wheel: str, wider: float) -> pd.DataFrame:
+def _table(
+    name: str, one: MeshRecording, forces: Forces, meshing: Meshing, pair: GearPair, wheel: str, wider: float
+) -> pd.DataFrame:
     """One row an angle and instrumented tooth in contact."""
     way = np.radians(forces.roll_angle) * pair.base_radius[0 if wheel == "pinion" else 1]
     pinion = way if wheel == "pinion" else pair.line_of_action_length - way
@@ -216,6 +226,7 @@ def _table(name: str, one: MeshRecording, forces: Forces, pair: GearPair, wheel:
         "roll_angle_deg": forces.roll_angle,
         "pinion_roll_angle_deg": np.degrees(pinion / pair.base_radius[0]),
         "single_contact": forces.single,
+        "at_pitch_point": meshing.is_smeared(forces.roll_angle),
         "sliding_speed_m_s": omega * (pinion - other),
         "condition_number": forces.condition,
         **interval("normal_force_N", forces.value[:, 0], forces.sd(0), forces.sd_own(0), wider),
@@ -246,6 +257,7 @@ def _summary(
         "oil_temperature_C": one.oil_temperature_C,
         "revolutions": average.turns,
         **{k: float(v) for k, v in found.items()},
+        "left_out_deg": meshing.smeared,
         "normal_force_over_nominal": float(forces.value[forces.single, 0].mean() / nominal),
         "largest_condition_number": float(forces.condition.max()),
         "removed_friction_force_N": float(np.mean(offset)),
@@ -278,7 +290,8 @@ def _lines(recordings: pd.DataFrame) -> Iterator[str]:
     for row in recordings.to_dict("records"):
         yield (
             f"{row['recording']}: mean friction {row['mean_friction']:.4f} (sd {row['mean_friction_sd']:.2g}) in "
-            f"single contact; normal force {row['normal_force_over_nominal']:.3f} of torque over base radius; "
+            f"single contact beyond {row['left_out_deg']:.2g}° from the pitch point; normal force "
+            f"{row['normal_force_over_nominal']:.3f} of torque over base radius; "
             f"condition number up to {row['largest_condition_number']:.3g}"
         )
 
@@ -293,7 +306,7 @@ def _figures(file: StrainGaugeFile, tables: dict[str, pd.DataFrame]) -> dict[str
             label = name if tooth == 1 else ""
             for curves, quantity in ((normal, "normal_force_N"), (friction, "friction_force_N")):
                 curves.append(curve(rows, "roll_angle_deg", quantity, label, group=group))
-            single = rows[rows["single_contact"]]
+            single = rows[rows["single_contact"] & ~rows["at_pitch_point"]]
             coefficient.append(curve(single, "roll_angle_deg", "friction_coefficient", label, marker=True, group=group))
     shape = []
     first = tables["influence"][tables["influence"]["tooth"] == 1]
@@ -314,7 +327,7 @@ def _figures(file: StrainGaugeFile, tables: dict[str, pd.DataFrame]) -> dict[str
 
 def _case(file: StrainGaugeFile, path: Path, table: pd.DataFrame) -> CaseDraft | None:
     """Friction of single contact as a case of mesh friction."""
-    rows = table[table["single_contact"]]
+    rows = table[table["single_contact"] & ~table["at_pitch_point"]]
     # Errors of recentring have the opposite sign on either side of the pitch point.
     side = np.where(rows["sliding_speed_m_s"] < 0.0, "before", "behind")
     setup = np.char.add(np.char.add(rows["recording"].to_numpy().astype(str), ", "), side)

@@ -23,7 +23,8 @@ class Meshing:
     """Roll angles (deg) of a wheel: its contact from ``low`` to ``high``, the pitch point and the pitch of its teeth.
 
     ``teeth`` are instrumented; ``direction`` is 1 where the contact moves to larger roll angles, as on the driving
-    wheel. Teeth may touch up to ``margin`` beyond the path.
+    wheel. Teeth may touch up to ``margin`` beyond the path. Within ``smeared`` of the pitch point friction of both
+    directions of sliding is mixed, as samples are apart and the roll angle is uncertain.
     """
 
     low: float
@@ -33,11 +34,16 @@ class Meshing:
     teeth: int
     direction: int
     margin: float
+    smeared: float = 0.0
 
     def roll_angle(self, first: np.ndarray, tooth: int) -> np.ndarray:
         """Roll angle of a tooth (from 0) where the first instrumented one has ``first``; the nearest turn is taken."""
         angle = first - self.direction * tooth * self.pitch
         return angle - 360.0 * np.round((angle - self.pitch_point) / 360.0)
+
+    def is_smeared(self, roll_angle: np.ndarray) -> np.ndarray:
+        """Whether a roll angle is so near the pitch point that friction of both directions is mixed."""
+        return np.abs(roll_angle - self.pitch_point) < self.smeared
 
     def touches(self, roll_angle: np.ndarray) -> np.ndarray:
         """Whether a tooth at a roll angle may be in contact."""
@@ -241,10 +247,15 @@ def friction_of(forces: Forces) -> tuple[np.ndarray, dict[str, np.ndarray]]:
 
 
 def mean_friction(forces: Forces, meshing: Meshing) -> tuple[float, dict[str, np.ndarray]]:
-    """Friction of single contact weighted with load and sliding, lost over transmitted work, and its errors."""
-    slide = np.where(forces.single, np.abs(forces.roll_angle - meshing.pitch_point), 0.0)
+    """Friction of single contact weighted with load and sliding, lost over transmitted work, and its errors.
+
+    The step at the pitch point is left out: there the average over turns mixes both directions of friction.
+    """
+    used = forces.single & ~meshing.is_smeared(forces.roll_angle)
+    slide = np.where(used, np.abs(forces.roll_angle - meshing.pitch_point), 0.0)
     if not slide.any():
-        raise InputError("no single contact of an instrumented tooth was recorded", where="recordings")
+        rule = f"no single contact of an instrumented tooth beyond {meshing.smeared:.3g}° from the pitch point"
+        raise InputError(f"{rule} was recorded", where="recordings")
     total = float((slide * forces.value[:, 0]).sum())
     value = float((slide * forces.sense * forces.value[:, 1]).sum()) / total
     to_forces = np.stack([-value * slide, slide * forces.sense], axis=1) / total

@@ -3,24 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cache
-from types import MappingProxyType
 
-from mixedlub.chain.friction_law import PLACES, REGISTRY, FrictionLaw
-from mixedlub.schema.discovery import loaded
-from profiles.errors import InputError, nearest
-
-BASE = "tallian_mixture"
-"""The friction of the base model."""
+from mixedlub.chain.friction_law import BASE, FRICTION_LAWS, PLACES, FrictionLaw
 
 
-@cache
 def catalogue() -> Mapping[str, FrictionLaw]:
     """All friction laws by name, that of the base model first, then those of contact points, then those of a mesh."""
-    loaded(__name__, "mixedlub.friction")
-    places = list(PLACES)
-    order = sorted(REGISTRY.values(), key=lambda law: (law.name != BASE, places.index(law.place), law.name))
-    return MappingProxyType({law.name: law for law in order})
+    return FRICTION_LAWS.all
 
 
 def find(name: str, where: str = "NAME") -> FrictionLaw:
@@ -30,10 +19,7 @@ def find(name: str, where: str = "NAME") -> FrictionLaw:
     >>> print(repr(ml.friction.find("misharin")).splitlines()[0])
     misharin: Friction coefficient of rolling and sliding discs (-), from speeds and
     """
-    known = catalogue()
-    if name not in known:
-        raise InputError(f"no such friction law; {nearest(name, known)}", where=where, value=name)
-    return known[name]
+    return FRICTION_LAWS.find(name, where)
 
 
-__all__ = ["PLACES", "FrictionLaw", "catalogue", "find"]
+__all__ = ["BASE", "PLACES", "FrictionLaw", "catalogue", "find"]

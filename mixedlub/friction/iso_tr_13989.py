@@ -3,8 +3,8 @@
 import numpy as np
 
 from mixedlub.chain.friction_law import Coefficient, friction_law
+from mixedlub.chain.powers import power
 from mixedlub.friction.schlenk import pitch_load
-from mixedlub.laws.powers import power
 
 
 @friction_law(

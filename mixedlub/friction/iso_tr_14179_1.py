@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.friction_law import Coefficient, friction_law
-from mixedlub.laws.powers import power
+from mixedlub.chain.powers import power
 
 
 @friction_law(

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from mixedlub.chain.friction_law import friction_law
-from mixedlub.laws.powers import power
+from mixedlub.chain.powers import power
 
 B = (-8.916465, 1.03303, 1.036077, -0.354068, 2.812084, -0.100601, 0.752755, -0.390958, 0.620305)
 

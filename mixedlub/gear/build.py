@@ -31,6 +31,7 @@ def gear_pair(section: system_file.Gears) -> GearPair:
         face_width=section.face_width_mm * 1e-3,
         youngs_modulus=(section.youngs_modulus_GPa[0] * 1e9, section.youngs_modulus_GPa[1] * 1e9),
         poisson_ratio=section.poisson_ratio,
+        dedendum=section.dedendum,
     )
 
 

@@ -76,12 +76,27 @@ def two(key: str, values: Any) -> tuple[Any, Any]:
     return entries
 
 
+def _only_external(teeth: tuple[Any, Any]) -> None:
+    """Refuse internal gears, whose number of teeth is negative by the convention of ISO 21771."""
+    if not all(isinstance(count, (int, float)) for count in teeth) or min(teeth) >= 0:
+        return
+    small, large = sorted(abs(count) for count in teeth)
+    off = f", and about {(large + small) / (large - small):.2g} times the loss factor" if small < large else ""
+    rule = (
+        "internal gears are not computed, and no external wheel stands for one: it has other sliding, another radius "
+        f"of curvature{off}; compute the external meshes of the set alone (sun and planet), and take the loss of the "
+        "ring's mesh from elsewhere"
+    )
+    raise InputError(rule, where="teeth", value=teeth)
+
+
 @dataclass(frozen=True)
 class GearPair:
     """A pair of external involute cylindrical gears; first entry of every pair is the driving pinion.
 
     Lengths in m, angles in rad, moduli in Pa. ``tip_radius=None`` takes the standard addendum
-    ``r + m_n (1 + x)``; ``centre_distance=None`` takes the backlash-free one of the profile shifts.
+    ``r + m_n (1 + x)``; ``dedendum`` is that of the basic rack over the module, which elastic teeth read.
+    ``centre_distance=None`` takes the backlash-free one of the profile shifts.
     Anything that is not a working gear pair is refused with the name of its key in the ``[gears]`` table.
 
     Source: ISO 21771, geometry of cylindrical involute gears.
@@ -105,9 +120,11 @@ class GearPair:
     centre_distance: float | None = None
     youngs_modulus: Pair = (206e9, 206e9)
     poisson_ratio: Pair = (0.3, 0.3)
+    dedendum: float = 1.25
 
     def __post_init__(self) -> None:
         teeth = two("teeth", self.teeth)
+        _only_external(teeth)
         for count in teeth:
             whole = number("teeth", count, 3, 10_000, "a number of teeth is a whole number from 4 to 9999")
             if whole != int(whole):
@@ -152,6 +169,9 @@ class GearPair:
             "youngs_modulus": ("youngs_modulus_GPa", 0, 1e13, "Young's modulus is above zero", 1e-9),
             "poisson_ratio": ("poisson_ratio", -1, 0.5, "Poisson's ratio lies between -1 and 0.5", 1),
         }
+        checked["dedendum"] = number(
+            "dedendum", self.dedendum, 0.5, 3.0, "the dedendum of a rack lies between 0.5 and 3 modules"
+        )
         if self.tip_radius is not None:
             rules["tip_radius"] = ("tip_diameter_mm", 0, 100, "a tip diameter is above zero", 2e3)
         for name, (key, low, high, rule, scale) in rules.items():
@@ -176,7 +196,8 @@ class GearPair:
                 )
         elif self.centre_distance <= nominal:
             raise InputError(
-                f"the centre distance must exceed the sum of the base radii, {nominal * 1e3:.6g} mm",
+                f"the centre distance must exceed the sum of the base radii, {nominal * 1e3:.6g} mm (internal gears "
+                "are not computed)",
                 where="centre_distance_mm",
                 value=self.centre_distance * 1e3,
             )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mixedlub.gear.compliance import iso_single_stiffness
 from mixedlub.gear.geometry import GearPair, number
@@ -32,7 +32,7 @@ class IsoStiffness:
 
 
 def iso_stiffness(
-    pair: GearPair, line_load: float | None = None, *, dedendum: float = 1.25, blank_factor: float = 1.0
+    pair: GearPair, line_load: float | None = None, *, dedendum: float | None = None, blank_factor: float = 1.0
 ) -> IsoStiffness:
     r"""Single and mesh stiffness of ISO 6336-1.
 
@@ -40,9 +40,9 @@ def iso_stiffness(
     c_gamma,alpha = c' (0.75 eps_alpha + 0.25), c_gamma,beta = 0.85 c_gamma,alpha. Other materials: c' E/206 GPa with
     E = 2 E_1 E_2/(E_1 + E_2). Below 100 N/mm: c' times (line load/100 N/mm)^(1/4).
 
-    ``line_load``: K_A F_t/b in N/m, None for a full load; ``dedendum`` h_fP of the basic rack over module;
-    ``blank_factor`` C_R of thin rims, 1 of solid discs. Holds for x_1 >= x_2, -0.5 <= x_1 + x_2 <= 2 and contact
-    ratios from 1.2; else a finding says so.
+    ``line_load``: K_A F_t/b in N/m, None for a full load; ``dedendum`` h_fP of the basic rack over module, None for
+    the pair's; ``blank_factor`` C_R of thin rims, 1 of solid discs. Holds for x_1 >= x_2, -0.5 <= x_1 + x_2 <= 2 and
+    contact ratios from 1.2; else a finding says so.
 
     Source: ISO 6336-1:2006, clause 9, method B.
 
@@ -55,7 +55,8 @@ def iso_stiffness(
     >>> print(round(found.theoretical / 1e9, 5), round(found.single / 1e9, 5))
     17.85584 12.37047
     """
-    number("dedendum", dedendum, 0.5, 3.0, "the dedendum of a rack lies between 0.5 and 3 modules")
+    if dedendum is not None:
+        pair = replace(pair, dedendum=dedendum)
     number("blank_factor", blank_factor, 0.0, 1.0 + 1e-12, "the blank factor lies above 0 and up to 1")
     x1, x2 = pair.profile_shift
     outside = [
@@ -70,7 +71,7 @@ def iso_stiffness(
     if outside:
         report(finding("law_extrapolated", f"ISO 6336-1 does not hold for {'; '.join(outside)}", "mesh stiffness"))
     theoretical = iso_single_stiffness(pair)
-    rack = (1 + 0.5 * (1.2 - dedendum)) * (1 - 0.02 * (20.0 - math.degrees(pair.pressure_angle)))
+    rack = (1 + 0.5 * (1.2 - pair.dedendum)) * (1 - 0.02 * (20.0 - math.degrees(pair.pressure_angle)))
     first, second = pair.youngs_modulus
     single = theoretical * CORRECTION * blank_factor * rack * math.cos(pair.helix_angle)
     single *= 2 * first * second / (first + second) / STEEL

@@ -16,7 +16,7 @@ import numpy as np
 from mixedlub.gear.geometry import GearPair, involute
 from profiles.errors import InputError
 
-DEDENDUM, CORNER = 1.25, 0.38  # standard rack of ISO 53 A, in modules
+CORNER = 0.38  # radius of the tip of the standard rack of ISO 53 A, in modules
 ROOT_TANGENT = math.radians(30)  # root section where the fillet's tangent is this far from the centreline
 LEAST_CLEARANCE = 0.2  # of the mate's tip in the root of a deeper cut tooth, in modules
 
@@ -115,12 +115,12 @@ class Tooth:
 
 
 def root_circle(pair: GearPair, wheel: int) -> float:
-    """Root radius (m): standard dedendum, or deeper where the mate's tip would else come too near.
+    """Root radius (m) by the dedendum of the rack, or deeper where the mate's tip would else come too near.
 
-    r - m_n (1.25 - x), at most a_w - r_a,mate - 0.2 m_n (deep profiles of high contact ratio need it).
+    r - m_n (h_fP - x), at most a_w - r_a,mate - 0.2 m_n (deep profiles of high contact ratio need it).
     """
     module = pair.normal_module
-    standard = pair.reference_radius[wheel] - module * (DEDENDUM - pair.profile_shift[wheel])
+    standard = pair.reference_radius[wheel] - module * (pair.dedendum - pair.profile_shift[wheel])
     return min(standard, pair.working_centre_distance - pair.tip_radii[1 - wheel] - LEAST_CLEARANCE * module)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shlex
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -12,6 +11,7 @@ import numpy as np
 
 from mixedlub.kinds import KINDS
 from mixedlub.kinds import kind as kind_of
+from mixedlub.running.shell import quoted
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.section import examples, table, tables
@@ -25,6 +25,8 @@ Answers = Mapping[str, Any]
 
 SHEET = "import.sheet"
 """The sheet of a workbook that is read."""
+HIDDEN_ROWS = "import.hidden_rows"
+"""Whether hidden rows of a workbook are read: "take" or "leave"."""
 PART = re.compile(r'"[^"]*"|[^.]+')
 """A part of a dotted key; a name that contains a point is quoted."""
 
@@ -77,7 +79,7 @@ def listed(questions: Sequence[Question]) -> Iterator[str]:
         listed_choices.add(q.choices)
         words += f", for example {q.example}" if q.placeholder and not q.choices else ""
         words += f"; or {q.one_value}=... if all rows have the same" if q.one_value and not q.offered else ""
-        yield f"  --set {shlex.quote(f'{q.key}={q.placeholder or q.example}')}  ({words})"
+        yield f"  --set {quoted(f'{q.key}={q.placeholder or q.example}')}  ({words})"
 
 
 @dataclass(frozen=True)
@@ -151,7 +153,7 @@ def refuse_unknown(answers: Answers, known: Sequence[str]) -> None:
     ...
     profiles.errors.InputError: import.evry: key is not known for this file; nearest known: 'import.every'
     """
-    keys = (EVERY.key, SHEET, *known)
+    keys = (EVERY.key, SHEET, HIDDEN_ROWS, *known)
     for key in answers:
         if PART.findall(key)[:1] == ["import"] and key not in keys:
             raise InputError(f"key is not known for this file; {nearest(key, keys)}", where=key)

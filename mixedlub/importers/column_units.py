@@ -98,6 +98,8 @@ def unit_question(column: str, header: str, target: Target) -> Question:
     if column == "friction_coefficient" and FORCE.search(words_of(header)):
         text += "; of a force, with the unit of the load, force divided by load is taken"
         units = (*units, *units_of("N"))
+    if target.unit == "mPa_s":
+        units = (*units, *units_of("mm2_s"))
     if column == TIME:
         first = counted(header)
         units = tuple(u for f in sorted((target.unit, *PACES), key=lambda f: f != first) for u in units_of(f))

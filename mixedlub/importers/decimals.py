@@ -23,6 +23,9 @@ WITH_ONE = {mark: re.compile(rf"[+-]?(?:\d+\{mark}\d*|\{mark}\d+)(?:[eE][+-]?\d+
 NUMBER = re.compile(
     "|".join(form.pattern for forms in (GROUPED, WITH_BOTH, WITH_ONE) for form in forms.values()) + f"|{PLAIN.pattern}"
 )
+SPACED = re.compile(r"[+-]?[1-9]\d{0,2}(?:[ \u00a0\u2009\u202f'\u2019]\d{3})+(?:[.,]\d*)?")
+"""A number whose thousands a blank or an apostrophe separates."""
+GAP = re.compile(r"[ \u00a0\u2009\u202f'\u2019]")
 DIGITS = str.maketrans("23456789", "11111111")
 
 
@@ -54,6 +57,13 @@ def with_points(rows: Sequence[Line], name: str, given: str | None = None) -> tu
     outside_rows = [line for line in rows if len(line[1]) != width]
     columns = [list(cells) for cells in zip(*(row for _, row in table), strict=True)]
     forms = [forms_of(cells) for cells in columns]
+    closed = []
+    for i, column in enumerate(columns):
+        if any(SPACED.fullmatch(form) for form in set(forms[i])):
+            spaced = [row for row, cell in enumerate(column) if SPACED.fullmatch(cell)]
+            closed.append((table[spaced[0]][0], column[spaced[0]]))
+            columns[i] = [GAP.sub("", cell) if SPACED.fullmatch(cell) else cell for cell in column]
+            forms[i] = forms_of(columns[i])
     numeric = [i for i, column in enumerate(forms) if _holds_numbers(column)]
 
     def inner() -> Iterator[Place]:
@@ -75,6 +85,7 @@ def with_points(rows: Sequence[Line], name: str, given: str | None = None) -> tu
     inside = zip((number for number, _ in table), map(list, zip(*columns, strict=True)), strict=True)
     outside = ((number, [_read(cell, decimal) for cell in row]) for number, row in outside_rows)
     notes = [] if given else _thousands_taken(written, inner, decimal)
+    notes += [f"line {number}: {cell!r} is read as {_read(GAP.sub('', cell), decimal)}" for number, cell in closed]
     return sorted([*inside, *outside], key=lambda line: line[0]), notes
 
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from mixedlub.importers.base import SHEET, Answers, read_note
+from mixedlub.importers.base import HIDDEN_ROWS, SHEET, Answers, read_note
+from mixedlub.importers.odd_rows import count, places
 from mixedlub.importers.text_table import Sheet, read_sheet
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.table import with_hyphens
@@ -42,12 +44,12 @@ class InputFile:
     def table(self, decimal: str | None = None) -> Sheet:
         """The table in the text; ``decimal`` is the mark before decimals where an answer names it."""
         if decimal not in self.tables:
-            self.tables[decimal] = read_sheet(self.text, self.name, decimal)
+            self.tables[decimal] = read_sheet(self.text, self.name, decimal, "\t" if self.is_workbook else "")
         return self.tables[decimal]
 
 
 def open_file(path: Path, answers: Answers) -> InputFile:
-    """The text of a file; of a workbook the sheet that an answer names, else that with the longest table."""
+    """The text of a file; of a workbook the sheet that an answer names, else the visible one with the longest table."""
     try:
         refuse_no_file(path)
         data = path.read_bytes()
@@ -92,10 +94,38 @@ def _from_workbook(sheets: tuple[Worksheet, ...], name: str, answers: Answers) -
     chosen = longest(sheets, name) if wanted is None else by_name[str(wanted)]
     notes = []
     if len(sheets) > 1:
-        others = ", ".join(repr(other) for other in by_name if other != chosen.name)
-        why = "" if wanted is not None else f", as its table is the longest; {SHEET} names another"
-        notes.append(read_note(f"sheet {chosen.name!r} is read, not {others}{why}", name))
+        hidden = {True: " (hidden)", False: ""}
+        others = ", ".join(repr(s.name) + hidden[s.is_hidden] for s in sheets if s.name != chosen.name)
+        of_visible = " of those that are visible" if any(s.is_hidden for s in sheets) else ""
+        why = "" if wanted is not None else f", as its table is the longest{of_visible}; {SHEET} names another"
+        notes.append(read_note(f"sheet {chosen.name!r}{hidden[chosen.is_hidden]} is read, not {others}{why}", name))
+    if chosen.as_text:
+        notes.append(read_note(f"{_columns(chosen.as_text)}: numbers stored as text, read as numbers", name))
+    text, hidden_rows = _visible(chosen, name, answers)
+    notes += hidden_rows
     if chosen.percent:
-        columns = ("column " if len(chosen.percent) == 1 else "columns ") + ", ".join(chosen.percent)
+        columns = _columns(chosen.percent)
         notes.append(finding("percent_as_stored", f"{columns} shown in percent, taken as stored: 5 % is 0.05", name))
-    return InputFile(name, with_hyphens(chosen.text), tuple(notes), is_workbook=True)
+    return InputFile(name, with_hyphens(text), tuple(notes), is_workbook=True)
+
+
+def _columns(letters: Sequence[str]) -> str:
+    return ("column " if len(letters) == 1 else "columns ") + ", ".join(letters)
+
+
+def _visible(sheet: Worksheet, name: str, answers: Answers) -> tuple[str, list[Finding]]:
+    """The text of a sheet without its hidden rows, unless an answer takes them, and a finding on them."""
+    choice = answers.get(HIDDEN_ROWS, "leave")
+    if choice not in ("take", "leave"):
+        raise InputError("must be 'take' or 'leave'", where=HIDDEN_ROWS, value=choice)
+    lines = sheet.text.split("\n")
+    hidden = [row for row in sheet.hidden_rows if row <= len(lines) and lines[row - 1].strip()]
+    if not hidden:
+        return sheet.text, []
+    rows = f"{count(len(hidden), 'row')} that the workbook hides, by a filter or by hand"
+    if choice == "take":
+        return sheet.text, [read_note(f"{rows}: taken, as answered: {places(hidden)}", name)]
+    for row in hidden:
+        lines[row - 1] = ""
+    text = f"{rows}: left out ({places(hidden)}); --set '{HIDDEN_ROWS}=\"take\"' takes them"
+    return "\n".join(lines), [finding("rows_left_out", text, name)]

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import difflib
 import re
-import shlex
 from collections.abc import Iterable, Mapping, Sequence
+
+import numpy as np
 
 from mixedlub.importers.answer_keys import COLUMNS
 from mixedlub.importers.base import Question
-from mixedlub.importers.text_table import Cells, is_numeric
+from mixedlub.importers.text_table import Cells, is_numeric, values_of
 from mixedlub.importers.time_base import TIME, counted
 from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, WEIGHED, Target, family, is_kinematic, target_of
 from mixedlub.kinds import KINDS
 from mixedlub.kinds import kind as kind_of
+from mixedlub.running.shell import quoted
 from mixedlub.schema.dates import is_dated
 from mixedlub.schema.table import Column, is_missing
 from mixedlub.schema.toml_file import toml_value
@@ -41,6 +43,8 @@ DERIVED = re.compile(
     r"drop|wear|roughness|steigung|dämpfung|steifigkeit|dauer|fehler|grenze|verschleiß|rauheit)s?\.?"
 )
 """Words for a quantity derived from the column: the slope of a friction is no friction."""
+WEAR = re.compile(r"\bwear\b|\b(?:weight|mass|volume)[ _]loss\b|verschleiß|massenverlust")
+"""Words of a wear, which has columns of its own in many tables of friction."""
 AS_IT_IS = {"corrected", "compensated", "free"}
 """Words that cancel one of those: a friction whose zero is corrected."""
 OTHERS = {
@@ -126,7 +130,10 @@ def is_logarithm(header: str) -> bool:
     return logged is not None and (unit is None or not is_unit(unit))
 
 
-SPREAD = re.compile(r"(?:standard deviation|std\.? dev|st\.? ?dev|stddev|std|sd)\.?")
+SPREAD = re.compile(
+    r"(?:standard deviation|std\.? dev|st\.? ?dev|stddev|std|sd|"
+    r"(?:stated |expanded |standard |measurement )?uncertainty|(?:mess)?unsicherheit)\.?"
+)
 BEFORE, AFTER = re.compile(rf"{SPREAD.pattern}\b(?: of)?"), re.compile(rf"\b{SPREAD.pattern}$")
 
 
@@ -158,6 +165,24 @@ def likely_spread(reading: Target, header: str, cells: Cells) -> str | None:
     return max(n_words, key=lambda other: n_words[other], default=None)
 
 
+def relative_spread_notes(free: Cells) -> list[str]:
+    """Notes on columns of relative uncertainties, with the setting that takes their median.
+
+    >>> relative_spread_notes({"Uncertainty (%)": ["1", "2", "2"]})
+    ["'Uncertainty (%)' is not taken; if it is that of the readings: --set recording.noise.relative=0.02"]
+    """
+    shares = {h: values_of(cells) / 100.0 for h, cells in free.items() if spread_of(h) is not None and _percent(h)}
+    return [
+        f"{h!r} is not taken; if it is that of the readings: --set recording.noise.relative={np.nanmedian(share):g}"
+        for h, share in shares.items()
+        if np.isfinite(share).any()
+    ]
+
+
+def _percent(header: str) -> bool:
+    return split(header)[1] == "%"
+
+
 def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
     """Similarity of a header to a column by words and unit; 0 where unit, words or cells exclude it.
 
@@ -177,7 +202,7 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
         or (column == "viscosity_mPa_s" and "kinematic" in words.split() and not is_kinematic(unit))
     ):
         return 0.0
-    if _is_derived(column, words) or NO_READING.get(column, set()) & set(words.split()):
+    if WEAR.search(words) or _is_derived(column, words) or NO_READING.get(column, set()) & set(words.split()):
         return 0.0
     numbers = is_numeric(cells)
     if column in TEXT_COLUMNS:
@@ -308,7 +333,7 @@ def rivals(column: str, taken: str, cells: Cells) -> list[str]:
 
 def rival_note(column: str, taken: str, others: Sequence[str]) -> str:
     """A note on the headers that may be meant instead of the one taken, with the setting that takes each."""
-    settings = (f"{h!r}: --set {shlex.quote(f'{COLUMNS}{column}={toml_value(h)}')}" for h in others)
+    settings = (f"{h!r}: --set {quoted(f'{COLUMNS}{column}={toml_value(h)}')}" for h in others)
     return f"{taken!r} is taken as {column}; if another is meant, {', or '.join(settings)}"
 
 
@@ -321,6 +346,6 @@ def spare_questions(spare: Mapping[str, str]) -> list[Question]:
 def spare_notes(spare: Mapping[str, str]) -> Sequence[str]:
     """Notes on headers left out, with the setting that takes each."""
     return [
-        f"{h!r} is not taken; if it is {column}: --set {shlex.quote(f'{COLUMNS}{column}={toml_value(h)}')}"
+        f"{h!r} is not taken; if it is {column}: --set {quoted(f'{COLUMNS}{column}={toml_value(h)}')}"
         for column, h in spare.items()
     ]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -20,12 +19,14 @@ from mixedlub.importers.column_units import (
 )
 from mixedlub.importers.kinematic import VISCOSITY
 from mixedlub.importers.likeness import (
+    WEAR,
     either,
     is_empty,
     is_logarithm,
     likely_headers,
     likely_spread,
     likeness,
+    relative_spread_notes,
     rival_note,
     rivals,
     spare_headers,
@@ -34,6 +35,7 @@ from mixedlub.importers.likeness import (
     transmitted,
 )
 from mixedlub.importers.one_value import without_value
+from mixedlub.importers.speed_from_position import FROM_POSITION, SPEED_FROM, positions
 from mixedlub.importers.surface_speeds import FROM_BOTH_SPEEDS, other_surface
 from mixedlub.importers.text_table import Cells, is_numeric
 from mixedlub.importers.time_base import (
@@ -46,6 +48,7 @@ from mixedlub.importers.time_base import (
 )
 from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, is_kinematic, is_of_another, target_of
 from mixedlub.kinds import Kind
+from mixedlub.running.shell import quoted
 from mixedlub.schema.table import BOOKKEEPING, Column, check_column, sd_column
 from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import fits, open_units, split, unit_of, words_of
@@ -133,7 +136,10 @@ def match(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> Match:
     ordered = {c.name: matched.headers[c.name] for c in columns if c.name in matched.headers}
     questions += pace_questions(matched.headers, units, answers)
     left = {h: v for h, v in _offered(filled, matched.headers).items() if h not in spare.values()}
-    warned = (*spare_notes(spare), *_rivals(quantity, named, matched.headers, cells, left))
+    spread = relative_spread_notes(
+        {h: v for h, v in _offered(cells, matched.headers).items() if h not in spare.values()}
+    )
+    warned = (*spare_notes(spare), *spread, *_rivals(quantity, named, matched.headers, cells, left))
     every = tuple(_explained(q, kind) for q in (*matched.questions, *questions))
     return Match(ordered, units, every, (*matched.notes, *notes), warned)
 
@@ -165,9 +171,11 @@ def _named_header(column: str, cells: Cells, answers: Answers) -> str:
     header = str(answers[COLUMNS + column])
     where = COLUMNS + column
     if header not in cells:
-        one = f"; if all rows have it: --set {shlex.quote(f'{VALUES}{column}={header}')}"
+        one = f"; if all rows have it: --set {quoted(f'{VALUES}{column}={header}')}"
         rule = f"no such header; {nearest(header, cells)}" + (one if column in TEXT_COLUMNS else "")
         raise InputError(rule, where=where, value=header)
+    if WEAR.search(words_of(header)) and column in ("friction_coefficient", "friction_torque_Nm"):
+        raise InputError("is wear, which no kind takes: it is no friction", where=where, value=header)
     if is_logarithm(header):
         raise InputError("is a logarithm; add a column of the quantity itself", where=where, value=header)
     unit = answers.get(UNIT_KEYS + column, split(header)[1])
@@ -283,6 +291,8 @@ def _missing(
         text = f"Header of the column that holds {column}{rivals}{_two_speeds(column, cells)}{refused}"
         header = None if rivals else header
         text += "; one that counts cycles or a distance will do" if column == TIME else ""
+        places = [] if header or column not in FROM_POSITION else positions(cells)
+        text += f"; or the change of a position: --set {quoted(f'{SPEED_FROM}={places[0]}')}" if places else ""
         others = [] if header or rivals else transmitted(column, free)
         if others:
             text += f"; not proposed: {', '.join(others)}, as by its words none of these is one; where it is their "

@@ -14,7 +14,8 @@ from mixedlub.importers.base import Answers, Draft, Question, answered_kind, que
 from mixedlub.importers.column_units import target_for
 from mixedlub.importers.input_file import InputFile
 from mixedlub.importers.likeness import likely_spread, spare_notes, spare_questions
-from mixedlub.importers.text_table import count, not_above_zero, places
+from mixedlub.importers.odd_rows import count, places
+from mixedlub.importers.text_table import not_above_zero
 from mixedlub.importers.vocabulary import BY_NAME, convert, target_of
 from mixedlub.kinds import kind as kind_of
 from mixedlub.schema.findings import Finding, finding

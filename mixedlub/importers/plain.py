@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import re
-import shlex
 from collections.abc import Collection, Iterator
 
 import numpy as np
 
 from mixedlub.data_checks.pooled_rows import grouping_columns, pooled_words
+from mixedlub.importers import dropped_columns
 from mixedlub.importers.base import Answers, Draft, Question, contact_form, questions_of, read_note, refuse_unknown
 from mixedlub.importers.column_units import target_for
 from mixedlub.importers.decimals import DECIMAL, MARKS
+from mixedlub.importers.dropped_columns import LEAVE
 from mixedlub.importers.input_file import InputFile
 from mixedlub.importers.kinematic import as_dynamic
 from mixedlub.importers.likeness import likely_headers, likely_kind, likeness_of_reading
 from mixedlub.importers.matching import import_keys, match, wanted
 from mixedlub.importers.one_value import constants, value_keys
+from mixedlub.importers.recognised import logarithm_doubt, refuse_unrecognised
+from mixedlub.importers.speed_from_position import SPEED_FROM, with_speed
 from mixedlub.importers.surface_speeds import refuse_one_surface
 from mixedlub.importers.text_table import (
     ONLY,
@@ -34,9 +37,11 @@ from mixedlub.importers.two_forces import COEFFICIENT, over_load
 from mixedlub.importers.vocabulary import convert
 from mixedlub.kinds import KINDS, Kind
 from mixedlub.kinds import kind as kind_of
+from mixedlub.running.shell import quoted
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.table import Column, is_number
 from mixedlub.schema.toml_file import toml_value
+from mixedlub.schema.units import unit_of
 from profiles.errors import InputError, nearest
 
 
@@ -56,7 +61,10 @@ def draft(file: InputFile, answers: Answers) -> Draft:
     _refuse_unknown(kind, answers)
     name = file.name
     sheet, selection_notes = selected_rows(file.table(_decimal(answers)), answers)
+    sheet, speed_notes = with_speed(sheet, answers)
     with_ratio, left_to_answer, ratio_notes = over_load(sheet, answers)
+    if kind is None:
+        refuse_unrecognised(with_ratio.cells, name, answers)
     likely = kind_of(kind or likely_kind(with_ratio.cells))
     if kind is not None and quantity is not None and quantity not in likely.quantities:
         rule = f"a case of kind {kind!r} records {' or '.join(likely.quantities)}"
@@ -105,7 +113,16 @@ def draft(file: InputFile, answers: Answers) -> Draft:
     taken = [*(["run"] if runs is not None else []), *(c for c in columns if c in matched.headers)]
     unused = [h for h in sheet.cells if h not in matched.headers.values() and h != header]
     conditions = [v for c, v in columns.items() if c not in (quantity, f"{quantity}_sd")]
-    pooled = _pooled({h: sheet.cells[h] for h in unused}, conditions, name)
+    left = {h: sheet.cells[h] for h in unused}
+    pooled = _pooled(left, conditions, name)
+    related: list[str] = []
+    doubts: list[str] = []
+    if str(quantity) in columns:
+        reading = columns[str(quantity)]
+        offered = {q.example: q.key for q in matched.questions}
+        further = (*dropped_columns.questions(left, conditions, reading, answers, offered), *further)
+        related += dropped_columns.changing_with(left, reading, str(quantity))
+        doubts += logarithm_doubt(str(quantity), matched.headers.get(str(quantity), ""), reading)
     how_read = [
         *selection_notes,
         f"{len(taken)} of {len(sheet.cells)} columns taken: {', '.join(taken)}",
@@ -117,11 +134,14 @@ def draft(file: InputFile, answers: Answers) -> Draft:
     ]
     notes = [
         *(finding("decimal_mark_assumed", text, name) for text in sheet.notes),
-        *(finding("rows_left_out", text, name) for text in incomplete),
+        *(finding("rows_left_out", text, name) for text in (*filter(None, [sheet.summaries]), *incomplete)),
         *(finding("column_not_taken", text, name) for text in matched.warned),
         *pooled,
+        *(finding("column_changes_with_reading", text, name) for text in related),
+        *(finding("viscosity_logarithm", text, name) for text in doubts),
+        *speed_notes,
         *ratio_notes,
-        *(read_note(text, name) for text in how_read),
+        *(read_note(text, name) for text in (*filter(None, [sheet.repeated]), *how_read)),
         *clock_notes,
         *(read_note(text, name) for text in not_positive),
         *([read_note(renumbered)] if renumbered else []),
@@ -133,7 +153,7 @@ def _pooled(free: Cells, conditions: Collection[np.ndarray], file: str) -> Itera
     """A finding for every column left out that distinguishes things whose rows are then pooled."""
     for header, cells in grouping_columns(free, conditions):
         value = toml_value(cells[0]) if not is_number(cells[0]) and re.search(r"[^\w-]", cells[0]) else cells[0]
-        setting = shlex.quote(f"{ONLY}{header}={value}")
+        setting = quoted(f"{ONLY}{header}={value}")
         text = f"{header!r} is not taken, so {pooled_words(cells)}; to import one of them: --set {setting}"
         yield finding("things_pooled", text, file)
 
@@ -142,7 +162,10 @@ def _refuse_unknown(kind: str | None, answers: Answers) -> None:
     kinds = [kind_of(k) for k in ([kind] if kind else KINDS)]
     columns = {c.name: c for k in kinds for q in k.quantities for c in wanted(k, q, answers)}
     values = (key for k in kinds for key in value_keys(k))
-    refuse_unknown(answers, (DECIMAL, DATES, *only_keys(answers), *import_keys(tuple(columns.values())), *values))
+    refuse_unknown(
+        answers,
+        (DECIMAL, DATES, LEAVE, SPEED_FROM, *only_keys(answers), *import_keys(tuple(columns.values())), *values),
+    )
 
 
 def _decimal(answers: Answers) -> str | None:
@@ -178,5 +201,12 @@ def _values(rule: Column, header: str, sheet: Sheet, unit: str | None) -> np.nda
     allowed = np.isnan(values) | ((values > rule.above) & (values >= rule.at_least) & (values <= rule.at_most))
     if not allowed.all():
         row = int(np.argmin(allowed))
-        rule.parse(repr(float(values[row])), place(row))
+        try:
+            rule.parse(repr(float(values[row])), place(row))
+        except InputError as error:
+            native = unit is None or float(cells[row]) == values[row]
+            meant = "" if native else f": {cells[row]} {unit} is {values[row]:g} {unit_of(rule.name)}"
+            text = (error.rule if native else error.rule.partition(";")[0]) + meant
+            text += f"; --set {quoted(f'{ONLY}{header}=LOW..HIGH')} keeps the rows within a range"
+            raise InputError(text, where=error.where, value=cells[row]) from None
     return values

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -15,9 +14,12 @@ import numpy as np
 from mixedlub.importers.base import Answers
 from mixedlub.importers.decimals import Line, common_length, is_written_number, with_points
 from mixedlub.importers.header import header_of
-from mixedlub.schema.table import LARGEST, are_numbers, is_missing, is_number
+from mixedlub.importers.odd_rows import cleared, count, places, without_repeated_headers, without_summaries
+from mixedlub.schema.table import LARGEST, are_numbers, csv_rows, is_missing, is_number
 from mixedlub.schema.units import words_of
 from profiles.errors import InputError, nearest
+from profiles.readers.workbook import UNCALCULATED
+from profiles.units import number_of
 
 SEPARATORS = "\t;,"
 UNIT = r"[(\[](?:[^()\[\]]|/\s*\([^()\[\]]*\))*[)\]]"
@@ -27,12 +29,11 @@ WORDS = re.compile(r"\S+(?:\s\S+)*")
 """A cell between blanks: a word, a word and its unit, or words with single blanks between."""
 
 
-def rows_of(numbered: Sequence[tuple[int, str]]) -> list[Line]:
+def rows_of(numbered: Sequence[tuple[int, str]], name: str, separator: str = "") -> list[Line]:
     """The cells of numbered lines, separated by blanks only where no separator gives as many rows of numbers."""
-    separator = max(SEPARATORS, key=lambda mark: _regularity([line.count(mark) for _, line in numbered]))
-    reader = csv.reader((line for _, line in numbered), delimiter=separator)
-    marked = [(numbered[reader.line_num - 1][0], [cell.strip() for cell in row]) for row in reader]
-    if not any(_tally(line.split())[0] for _, line in numbered if len(line.split(None, 1)) > 1):
+    mark = separator or max(SEPARATORS, key=lambda mark: _regularity([line.count(mark) for _, line in numbered]))
+    marked = [(number, [cell.strip() for cell in row]) for number, row in csv_rows(numbered, name, mark, headings=True)]
+    if separator or not any(_tally(line.split())[0] for _, line in numbered if len(line.split(None, 1)) > 1):
         return marked
     blank = _by_blanks(numbered)
     return blank if _readable(blank) > _readable(marked) else marked
@@ -41,6 +42,23 @@ def rows_of(numbered: Sequence[tuple[int, str]]) -> list[Line]:
 def _regularity(counts: list[int]) -> int:
     """Number of lines with the most common count of a separator; on a tie the comma may be a decimal mark."""
     return max(Counter(n for n in counts if n).values(), default=0)
+
+
+def with_header(rows: Sequence[Line], lines: Mapping[int, str]) -> list[Line]:
+    """The rows with the words of the header separated by blanks where only the numbers below have separators.
+
+    >>> lines = {1: "Time Load", 2: "0\\t20", 3: "1\\t21"}
+    >>> with_header([(1, ["Time Load"]), (2, ["0", "20"]), (3, ["1", "21"])], lines)[0]
+    (1, ['Time', 'Load'])
+    """
+    width = common_length([row for _, row in rows])
+    first = next((i for i, (_, row) in enumerate(rows) if len(row) == width > 1 and _tally(row)[0]), 0)
+    number, above = rows[first - 1]
+    ways = [form.findall(lines[number]) for form in (WORD, WORD_AND_UNIT, WORDS)]
+    words = next((way for way in ways if len(way) == width), None)
+    if first == 0 or len(above) > 1 or words is None or any(map(is_number, words)):
+        return list(rows)
+    return [*rows[: first - 1], (number, [word.strip() for word in words]), *rows[first:]]
 
 
 def _by_blanks(numbered: Sequence[tuple[int, str]]) -> list[Line]:
@@ -77,8 +95,6 @@ ONLY = "import.only."
 VALUES_LISTED = 20
 """Values of a column that an error lists at most."""
 Cells = Mapping[str, Sequence[str]]
-LINES_SHOWN = 5
-"""Lines that a note lists at most."""
 NUMBERS_SHOWN = 3
 """Numbers in a header that an error lists at most."""
 
@@ -99,37 +115,47 @@ class TextColumn(list[str]):
 
 @dataclass(frozen=True)
 class Sheet:
-    """The cells of a table by header, the line of each row, which lines are outside the table, and notes."""
+    """The cells of a table by header, the line of each row, which lines are outside the table, and notes.
+
+    ``repeated`` says which lines repeat the header, ``summaries`` which rows of means or sums are left out. ``faults``
+    are cells that show a spreadsheet's error or an infinite number, by header and line; in ``cells`` they are empty.
+    """
 
     name: str
     cells: Cells
     lines: tuple[int, ...]
     left_out: str = ""
     notes: tuple[str, ...] = ()
+    repeated: str = ""
+    summaries: str = ""
+    faults: Mapping[str, Mapping[int, str]] = field(default_factory=dict)
 
 
-def read_sheet(text: str, name: str, decimal: str | None = None) -> Sheet:
+def read_sheet(text: str, name: str, decimal: str | None = None, separator: str = "") -> Sheet:
     """The longest table of a text: rows of equal length under a header without numbers.
 
     Lines before and after the table are left out; a row of another length within it is an error. ``decimal`` is the
-    decimal mark, where an answer names it.
+    decimal mark, where an answer names it; ``separator`` parts the cells, where it is known.
     """
     numbered = [
         (number, line)
         for number, line in enumerate(text.splitlines(), start=1)
         if line.strip() and not line.lstrip().startswith("#")
     ]
-    rows = [line for line in rows_of(numbered) if any(line[1])]
+    every = with_header([line for line in rows_of(numbered, name, separator) if any(line[1])], dict(numbered))
+    rows, repeated = without_repeated_headers(every)
     if len(rows) < 2:
         raise InputError("needs a header line and at least one row", where=name)
     rows, notes = with_points(rows, name, decimal)
     first, last = _table_rows(rows, name)
     header, n_lines = header_of([row for _, row in rows[:first]])
     above = first - n_lines
-    table = rows[first:last]
+    table, summaries = without_summaries(rows[first:last])
+    lines = tuple(number for number, _ in table)
     cells = {h: TextColumn(row[i] for _, row in table) for i, h in enumerate(header) if h}
+    faults = {h: found for h, column in cells.items() if (found := cleared(column, lines))}
     parts = [part for part in (_range(rows[:above]), _range(rows[last:])) if part]
-    return Sheet(name, cells, tuple(number for number, _ in table), " and ".join(parts), tuple(notes))
+    return Sheet(name, cells, lines, " and ".join(parts), tuple(notes), repeated, summaries, faults)
 
 
 def complete_rows(sheet: Sheet, needed: Sequence[str]) -> tuple[Sheet, list[str]]:
@@ -140,15 +166,28 @@ def complete_rows(sheet: Sheet, needed: Sequence[str]) -> tuple[Sheet, list[str]
     incomplete = {i for rows in missing.values() for i in rows}
     if len(incomplete) == len(sheet.lines):
         most = max(missing, key=lambda h: len(missing[h]))
-        raise InputError(f"no row is complete: {most!r} is missing in {len(missing[most])} of them", where=sheet.name)
+        rule = f"no row is complete: {most!r} is missing in {len(missing[most])} of them"
+        raise InputError(rule + _faults_of(sheet, most), where=sheet.name)
     complete = [i for i in range(len(sheet.lines)) if i not in incomplete]
     cells = {h: TextColumn(values[i] for i in complete) for h, values in sheet.cells.items()}
     notes = [
         f"{count(len(rows), 'row')} left out, as {h!r} is missing: {places([sheet.lines[i] for i in rows])}"
+        + _faults_of(sheet, h)
         for h, rows in missing.items()
         if rows
     ]
     return replace(sheet, cells=cells, lines=tuple(sheet.lines[i] for i in complete)), notes
+
+
+def _faults_of(sheet: Sheet, header: str) -> str:
+    """What stands in the cells of a column that are no numbers, and the way out."""
+    texts = list(dict.fromkeys(sheet.faults.get(header, {}).values()))
+    if UNCALCULATED in texts:
+        return (
+            "; it holds formulas whose values the file lacks: open it in Excel or LibreOffice and save it, then they "
+            "are calculated"
+        )
+    return f"; there is {', '.join(map(repr, texts[:NUMBERS_SHOWN]))} in its place" if texts else ""
 
 
 def is_numeric(cells: Sequence[str]) -> bool:
@@ -189,26 +228,15 @@ def selected_rows(sheet: Sheet, answers: Answers) -> tuple[Sheet, list[str]]:
 
 
 def _cell_equals(cell: str, value: Any) -> bool:
+    """Whether a cell is the value of an answer, or lies in its range.
+
+    >>> [_cell_equals(cell, "273..400") for cell in ("300", "680", "hot")], _cell_equals("20.0", 20)
+    ([True, False, False], True)
+    """
+    low, dots, high = str(value).partition("..")
+    if dots and all(not end or is_number(end) for end in (low, high)):
+        return is_number(cell) and float(low or "-inf") <= float(cell) <= float(high or "inf")
     return cell == str(value) or (is_number(cell) and is_number(str(value)) and float(cell) == float(value))
-
-
-def count(number: int, thing: str) -> str:
-    """A number of things in words.
-
-    >>> count(1, "row"), count(3, "row")
-    ('1 row', '3 rows')
-    """
-    return f"{number} {thing}" + ("" if number == 1 else "s")
-
-
-def places(lines: Sequence[int]) -> str:
-    """Numbers of lines in words.
-
-    >>> places([14]), places([3, 9]), places(list(range(2, 20)))
-    ('line 14', 'lines 3, 9', 'lines 2, 3, 4, 5, 6 and 13 more')
-    """
-    more = f" and {len(lines) - LINES_SHOWN} more" if len(lines) > LINES_SHOWN else ""
-    return ("line " if len(lines) == 1 else "lines ") + ", ".join(map(str, lines[:LINES_SHOWN])) + more
 
 
 def not_above_zero(quantity: str, values: Iterable[float], lines: Iterable[int]) -> list[str]:
@@ -294,7 +322,7 @@ def _range(rows: Sequence[Line]) -> str:
 
 
 RUN_KEY = "import.columns.run"
-RUN_WORDS = ("run", "run number", "run no", "run no.", "run nr", "run nr.")
+RUN_WORDS = ("run", "run number", "run no", "run nr", "test no", "versuch nr", "lfd. nr", "lfd.nr", "nr", "no", "#")
 ANEW = "so readings are renumbered from 1"
 
 
@@ -303,7 +331,10 @@ def header_of_runs(sheet: Sheet, answers: Answers) -> str | None:
     named = answers.get(RUN_KEY)
     if named is not None and str(named) not in sheet.cells:
         raise InputError(f"no such header; {nearest(str(named), sheet.cells)}", where=RUN_KEY, value=named)
-    return str(named) if named is not None else next((h for h in sheet.cells if words_of(h) in RUN_WORDS), None)
+    if named is not None:
+        return str(named)
+    spoken = [words_of(header) for header in sheet.cells]
+    return next((h for words in RUN_WORDS for h, word in zip(sheet.cells, spoken, strict=True) if word == words), None)
 
 
 def runs_of(sheet: Sheet, header: str) -> tuple[np.ndarray | None, str | None]:
@@ -337,7 +368,7 @@ def joined_runs(parts: Sequence[tuple[str, np.ndarray | None]]) -> tuple[np.ndar
 
 def _whole(cell: str) -> int | None:
     try:
-        value = float(cell)
+        value = number_of(cell)
     except ValueError:
         return None
     return int(value) if abs(value) < LARGEST and value == int(value) else None

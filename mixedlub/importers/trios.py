@@ -6,7 +6,7 @@ import numpy as np
 
 from mixedlub.importers.base import Answers, Draft, answered_kind, questions_of, read_note, refuse_unknown
 from mixedlub.importers.input_file import InputFile
-from mixedlub.importers.text_table import count, places
+from mixedlub.importers.odd_rows import count, places
 from mixedlub.importers.vocabulary import BY_NAME, convert, target_of
 from mixedlub.schema.findings import finding
 from mixedlub.schema.table import Column

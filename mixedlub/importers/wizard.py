@@ -11,7 +11,7 @@ import numpy as np
 
 from mixedlub.case.import_file import NAME
 from mixedlub.data_checks.case_check import refuse_unreadable
-from mixedlub.importers import pcs, plain, trios
+from mixedlub.importers import labview, pcs, plain, trios
 from mixedlub.importers.attachments import is_share, with_attachments, with_share
 from mixedlub.importers.base import (
     EVERY,
@@ -45,7 +45,7 @@ NAMES_SHOWN = 4
 Step = Callable[[str], None]
 """Called with what is being done, and with nothing when it is done."""
 
-READERS: tuple[ModuleType, ...] = (pcs, trios, plain)
+READERS: tuple[ModuleType, ...] = (pcs, trios, labview, plain)
 """Tried in this order, after those that other packages offer as ``mixedlub.importers``; any text is a plain table."""
 STEPS = ("reading files", "reading tables", "writing the case", "checking the case")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.base_model.chains import LINE, POINT
 from mixedlub.chain.model import Chain
 from mixedlub.kinds import columns, oil_priors
 from mixedlub.kinds.calibration import Calibration
@@ -11,7 +12,6 @@ from mixedlub.kinds.kind import MIXED_FRICTION, Inputs, Kind, bookkeeping_inputs
 from mixedlub.kinds.standard import DISCS, OIL, ROUGHNESS_UM, StandardRig
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws import load, loss
-from mixedlub.laws.base_models import LINE, POINT
 from mixedlub.laws.contact import reduced_modulus
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.rig import Rig

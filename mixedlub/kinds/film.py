@@ -131,12 +131,15 @@ def chain(system: system_file.System, table: Table) -> Chain:
             ("line_load", load.disc_line_load),
             ("hertz_pressure", contact.line_hertz_pressure),
             ("hertz_half_width", contact.line_hertz_half_width),
+            ("moes_load", film.moes_load),
+            ("isoviscous_ratio", film.isoviscous_ratio),
             ("law_film", film.dowson_toyoda),
         )
     else:
         contact_laws = (
             ("hertz_pressure", contact.point_hertz_pressure),
             ("hertz_half_width", contact.point_hertz_half_width),
+            ("isoviscous_ratio", film.point_isoviscous_ratio),
             ("regression_film", film.hamrock_dowson),
             ("regime_film", film.nijenbanning),
             ("law_film", film.between_laws),

@@ -123,6 +123,8 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
     if "oil_temperature_C" in table:
         found["oil_temperature"] = column(table["oil_temperature_C"]) + ZERO_CELSIUS
     found.update(_motor_torque(table, recorded))
+    if "motor_torque" in found and driven_both_ways(recorded):
+        found["load_torque"] = found["motor_torque"]
     if "position_deg" in table:
         found["drive_angle"] = np.radians(column(table["position_deg"]))
     return found
@@ -168,6 +170,12 @@ def _motor_torque(table: Table, recorded: Table) -> Inputs:
     if motor is None or own is None or not np.any(recorded[motor] != 0):
         return {}
     return {"reference_torque": float(np.max(np.abs(recorded[motor]))), "motor_torque": column(table[own])}
+
+
+def driven_both_ways(recorded: Table) -> bool:
+    """Whether the motor drives the load in some rows, and the load drives the motor in others."""
+    power = drive_speed(recorded) * recorded[str(_motor_column(recorded))]
+    return bool(np.any(power > 0.0) and np.any(power < 0.0))
 
 
 def fill_channels(table: Table, recorded: Table) -> Table:

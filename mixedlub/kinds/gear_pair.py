@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.base_model.chains import GEAR_LOSS
 from mixedlub.gear.inputs import contact_inputs
 from mixedlub.kinds import columns
 from mixedlub.kinds.kind import MIXED_FRICTION, NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out
 from mixedlub.kinds.standard import GEARS, OIL, ROUGHNESS_UM, StandardRig
 from mixedlub.kinds.surfaces import pair_of_surfaces
-from mixedlub.laws.base_models import GEAR_LOSS
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file

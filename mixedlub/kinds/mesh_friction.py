@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.base_model.chains import GEAR_CONTACT
 from mixedlub.gear import Mesh, at_roll_angle
 from mixedlub.gear.build import gear_pair
 from mixedlub.gear.inputs import motion_inputs
@@ -12,7 +13,6 @@ from mixedlub.kinds.gear_pair import CONDITIONS
 from mixedlub.kinds.kind import MIXED_FRICTION, Inputs, Kind, bookkeeping_inputs, column, inverse_of
 from mixedlub.kinds.standard import GEARS, OIL, ROUGHNESS_UM, StandardRig
 from mixedlub.kinds.surfaces import pair_of_surfaces
-from mixedlub.laws.base_models import GEAR_CONTACT
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file

@@ -46,9 +46,10 @@ FALLS = ("temperature_viscosity", "known_fall", "fall_from_first")
 def missing(system: system_file.System) -> tuple[str, ...]:
     """Free properties that are unknown: neither given nor with a stated uncertainty."""
     section, sd = system.lubricant or system_file.Lubricant(), system.uncertainty
+    known = section.pressure_viscosity_per_GPa or section.known_pressure_viscosity
     gaps = (
         ("viscosity", section.kinematic_viscosity_mm2_s is None and sd.viscosity == 0),
-        ("pressure_viscosity", section.pressure_viscosity_per_GPa is None and sd.pressure_viscosity == 0),
+        ("pressure_viscosity", known is None and sd.pressure_viscosity == 0),
     )
     return tuple(name for name, gap in gaps if gap)
 

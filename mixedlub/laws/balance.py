@@ -2,15 +2,18 @@ r"""Film and asperities that share the load of a line contact, after Johnson, Gr
 
 The film carries the share :math:`1/\gamma` of the load. It then is as thick as in a smooth contact with
 :math:`w/\gamma` for the load and :math:`E'/\gamma` for the modulus, which has the same width. The asperities carry
-the rest; `mixedlub.laws.balanced` finds the film at which both add up.
+the rest; `mixedlub.base_model.balanced` finds the film at which both add up.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.chain.powers import power
 from mixedlub.laws.film import ELASTIC
-from mixedlub.laws.powers import power
+
+LEAST_ASPERITY_SHARE = 0.05
+"""Judgement. Share of the load from which asperities decide about the film's own contact: its M is then 2.5 % less."""
 
 
 def full_load_film(film_thickness: np.ndarray) -> np.ndarray:
@@ -33,29 +36,28 @@ def film_load_share(film_thickness: np.ndarray, full_load_film: np.ndarray, shar
     return (film_thickness / full_load_film) ** (-1.0 / sharing_exponent)
 
 
-def least_film_share(
-    moes_load: np.ndarray,
-    radius: np.ndarray,
-    entrainment_speed: np.ndarray,
-    viscosity: np.ndarray,
-    pressure_viscosity: np.ndarray,
-    reduced_modulus: np.ndarray,
-) -> np.ndarray:
+def least_film_share(moes_load: np.ndarray, isoviscous_ratio: np.ndarray) -> np.ndarray:
     r"""Share of the load below which the film's own contact leaves the regime that film laws are for (-).
 
-    .. math:: \max\left[\left(\frac{2.05}{1.65}\,M^{-3/40} L^{-3/4}\right)^{5/3},\ \left(\frac{M_0}{M}\right)^2\right]
+    .. math:: \max\left[q_{EI}^{5/3},\ (M_0/M)^2\right]
 
-    of Moes' groups :math:`M = W(2U)^{-1/2}` and :math:`L = G(2U)^{1/4}` at the whole load, which become
-    :math:`\gamma^{-1/2} M` and :math:`\gamma^{-3/4} L`. Below the first share the isoviscous elastic film
-    :math:`2.05\,M^{-1/5}` is thicker than the piezoviscous one, :math:`1.65\,M^{-1/8} L^{3/4}`; below the second the
-    film flattens nothing, with the limit :math:`M_0` of the film laws. Above 1 this holds at the whole load.
-    Source: H. Moes, Wear 159 (1992) 57, the elastic asymptotes.
+    with Moes' load M and the ratio q of the elastic films, isoviscous over piezoviscous, at the whole load: a film
+    that carries the share :math:`1/\gamma` has :math:`\gamma^{-1/2} M` and :math:`\gamma^{3/5} q`. Below the first
+    share the isoviscous film is the thicker one; below the second the film flattens nothing, with the limit
+    :math:`M_0` of the film laws. Above 1 the law is outside its range at the whole load.
 
-    >>> gear = (8.3262e-3, 2.1630, 0.01489, 14.81e-9, 226.374e9)
-    >>> [round(float(least_film_share(load, *gear)), 4) for load in (19.5, 4.0)]
+    >>> [round(float(least_film_share(load, 0.207)), 4) for load in (19.5, 4.0)]
     [0.0724, 0.25]
     """
-    material = pressure_viscosity * reduced_modulus
-    material = material * power(2.0 * viscosity * entrainment_speed / (reduced_modulus * radius), 0.25)
-    isoviscous = power(2.05 / 1.65 * power(moes_load, -0.075) * power(material, -0.75), 5.0 / 3.0)
-    return np.maximum(isoviscous, (ELASTIC["moes_load"][0] / moes_load) ** 2)
+    return np.maximum(power(isoviscous_ratio, 5.0 / 3.0), (ELASTIC["moes_load"][0] / moes_load) ** 2)
+
+
+def share_lacking(film_load_share: np.ndarray, least_film_share: np.ndarray) -> np.ndarray:
+    """Least share of a film over the one that it carries (-), where asperities carry enough to change its contact.
+
+    Source: K. L. Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91: the film's own contact.
+
+    >>> share_lacking(np.array([0.99, 0.5]), np.array([1.4, 1.4])).tolist()
+    [0.0, 2.8]
+    """
+    return np.where(film_load_share > 1.0 - LEAST_ASPERITY_SHARE, 0.0, least_film_share / film_load_share)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.chain.powers import power
 from mixedlub.chain.slots import ASPERITY_AREA, ASPERITY_LOAD
-from mixedlub.laws.powers import power
 from roughness.integrals import area_integral, load_integral
 
 GREENWOOD_WILLIAMSON = "elastic asperities of Greenwood and Williamson against a smooth plane"
@@ -113,17 +113,23 @@ def composite_roughness(m0: np.ndarray) -> np.ndarray:
     return np.sqrt(m0)
 
 
-def mean_roughness(m0: np.ndarray, height_share: np.ndarray) -> np.ndarray:
-    r"""Arithmetic mean roughness, mean of both surfaces (m), for normal heights.
+MEAN_OF_NORMAL = float(np.sqrt(2.0 / np.pi))
+"""Ra over Rq of normal heights."""
 
-    .. math:: R_a = \sqrt{2/\pi}\,\tfrac12(\sqrt{m_{0,1}} + \sqrt{m_{0,2}})
 
-    with ``height_share`` the part of the first surface in the summed m_0. Source: ISO 4287, for normal heights.
+def mean_roughness(m0: np.ndarray, height_share: np.ndarray, mean_over_rms: np.ndarray) -> np.ndarray:
+    r"""Arithmetic mean roughness, mean of both surfaces (m).
 
-    >>> round(float(mean_roughness(2 * 0.07**2, 0.5)), 3)   # Rq of 0.07 um on both
+    .. math:: R_a = \kappa\,\tfrac12(\sqrt{m_{0,1}} + \sqrt{m_{0,2}}),\quad
+              \kappa = \frac{R_{a,1} + R_{a,2}}{\sqrt{m_{0,1}} + \sqrt{m_{0,2}}}
+
+    with ``height_share`` the part of the first surface in the summed m_0, and kappa of the measured surfaces, or
+    sqrt(2/pi) of normal heights. Source: ISO 4287.
+
+    >>> round(float(mean_roughness(2 * 0.07**2, 0.5, MEAN_OF_NORMAL)), 3)   # Rq of 0.07 um on both
     0.056
     """
-    return np.sqrt(0.5 / np.pi) * (np.sqrt(m0 * height_share) + np.sqrt(m0 * (1.0 - height_share)))
+    return 0.5 * mean_over_rms * (np.sqrt(m0 * height_share) + np.sqrt(m0 * (1.0 - height_share)))
 
 
 def summit_separation(film_thickness: np.ndarray, plane_offset: np.ndarray, summit_sigma: np.ndarray) -> np.ndarray:

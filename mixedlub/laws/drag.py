@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.laws.powers import power
+from mixedlub.chain.powers import power
 
 AIR_DENSITY = 1.2
 AIR_VISCOSITY = 1.8e-5

@@ -6,8 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mixedlub.chain.powers import power
+from mixedlub.chain.ranges import holds_within
 from mixedlub.chain.slots import FILM
-from mixedlub.laws.powers import power
 
 
 class Regression(NamedTuple):
@@ -21,6 +22,13 @@ class Regression(NamedTuple):
 
 DOWSON_TOYODA = Regression(3.06, 0.69, 0.56, -0.10)
 DOWSON_HIGGINSON = Regression(2.65, 0.70, 0.54, -0.13)
+RIVALS = {
+    "Dowson and Higginson": DOWSON_HIGGINSON,
+    "Pan and Hamrock": Regression(2.922, 0.692, 0.470, -0.166),
+    "Grubin": Regression(1.95, 8.0 / 11.0, 8.0 / 11.0, -1.0 / 11.0),
+}
+"""Published regressions of line contacts other than the base law: D. Dowson, Proc. IMechE 182 Pt 3A (1968) 151; P. Pan,
+B. J. Hamrock, J. Tribol. 111 (1989) 246, central film; A. N. Grubin (1949), central film."""
 POINT_EXPONENT = 0.67
 """Of speed in the regression of Hamrock and Dowson."""
 ELLIPTICITY = (1.0, 8.0)
@@ -28,6 +36,8 @@ ELLIPTICITY = (1.0, 8.0)
 ELASTIC = {"moes_load": (2.0, np.inf)}
 """Range of the films of flattened line contacts. Full solutions are within 13 % of Dowson and Toyoda's incompressible
 film there (U 3e-13 to 1e-9, W 3e-5 to 2e-4); below, the law is up to 40 % too thick."""
+PIEZOVISCOUS = {"isoviscous_ratio": (0.0, 1.0)}
+"""Range of the films of contacts whose pressure thickens the oil: a soft contact has the thicker isoviscous film."""
 
 
 def _line_groups(
@@ -67,7 +77,33 @@ def moes_load(
     return load / np.sqrt(2.0 * speed)
 
 
-@FILM.offers("dowson_toyoda_central", "central film of Dowson and Toyoda (which the paper calls minimum)", ELASTIC)
+def isoviscous_ratio(
+    radius: np.ndarray,
+    entrainment_speed: np.ndarray,
+    line_load: np.ndarray,
+    viscosity: np.ndarray,
+    pressure_viscosity: np.ndarray,
+    reduced_modulus: np.ndarray,
+) -> np.ndarray:
+    r"""Film of a soft line contact, whose oil stays thin, over that of a hard one (-).
+
+    .. math:: \frac{2.05\,M^{-1/5}}{1.65\,M^{-1/8} L^{3/4}},\quad M = W(2U)^{-1/2},\ L = G(2U)^{1/4}
+
+    of Moes' groups, here as in `dowson_toyoda`. Above 1 pressure hardly thickens the oil.
+    Source: H. Moes, Wear 159 (1992) 57, the elastic asymptotes.
+
+    >>> round(float(isoviscous_ratio(8.3262e-3, 2.1630, 214.86e3, 0.01489, 14.81e-9, 226.374e9)), 3)
+    0.207
+    """
+    speed, load = _line_groups(radius, entrainment_speed, line_load, viscosity, reduced_modulus)
+    double = np.sqrt(2.0 * speed)
+    thick = power(pressure_viscosity * reduced_modulus * np.sqrt(double), 0.75)
+    return 2.05 / 1.65 * power(load / double, -0.075) / thick
+
+
+@FILM.offers(
+    "dowson_toyoda_central", "central film of Dowson and Toyoda (which the paper calls minimum)", ELASTIC | PIEZOVISCOUS
+)
 def dowson_toyoda(
     radius: np.ndarray,
     entrainment_speed: np.ndarray,
@@ -93,7 +129,7 @@ def dowson_toyoda(
     return _film(DOWSON_TOYODA, radius, pressure_viscosity * reduced_modulus, *groups)
 
 
-@FILM.offers("dowson_higginson_minimum", "minimum film of Dowson and Higginson", ELASTIC)
+@FILM.offers("dowson_higginson_minimum", "minimum film of Dowson and Higginson", ELASTIC | PIEZOVISCOUS)
 def dowson_higginson(
     radius: np.ndarray,
     entrainment_speed: np.ndarray,
@@ -151,6 +187,46 @@ def ellipticity(radius: np.ndarray | float, transverse_radius: np.ndarray | floa
     return np.asarray(1.03 * power(transverse_radius / radius, 0.64))
 
 
+def point_isoviscous_ratio(
+    radius: np.ndarray,
+    transverse_radius: np.ndarray,
+    entrainment_speed: np.ndarray,
+    load: np.ndarray,
+    viscosity: np.ndarray,
+    pressure_viscosity: np.ndarray,
+    reduced_modulus: np.ndarray,
+) -> np.ndarray:
+    """Film of a soft point contact, whose oil stays thin, over that of a hard one (-): H_EI/H_EP of `nijenbanning`.
+
+    Source: G. Nijenbanning, C. H. Venner, H. Moes, Wear 176 (1994) 217, the elastic asymptotes.
+
+    >>> ball = (9.5e-3, 9.5e-3, 0.1, 5.0, 0.28, 18e-9)
+    >>> [round(float(point_isoviscous_ratio(*ball, modulus)), 2) for modulus in (226e9, 0.267e9)]   # steel, rubber
+    [0.32, 12.85]
+    """
+    group = 2.0 * viscosity * entrainment_speed / (reduced_modulus * radius)
+    soft, thick = _elastic(radius, transverse_radius, group, load, pressure_viscosity, reduced_modulus)
+    return soft / thick
+
+
+def _elastic(
+    radius: np.ndarray,
+    transverse_radius: np.ndarray,
+    group: np.ndarray,
+    load: np.ndarray,
+    pressure_viscosity: np.ndarray,
+    reduced_modulus: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Both elastic asymptotes of `nijenbanning`, isoviscous and piezoviscous, by its speed group."""
+    m = load / (reduced_modulus * radius**2) * power(group, -0.75)
+    ell = pressure_viscosity * reduced_modulus * power(group, 0.25)
+    d = np.asarray(radius / transverse_radius)
+    k = 1.0 + 0.006 * np.log(d) + 0.63 * d ** (4 / 7)
+    soft = 3.18 * k ** (-14 / 25) * d ** (-1 / 15) * m ** (-2 / 15)
+    return soft, 1.48 * k ** (-7 / 20) * d ** (-1 / 24) * m ** (-1 / 12) * power(ell, 0.75)
+
+
+@holds_within(PIEZOVISCOUS)
 def hamrock_dowson(
     radius: np.ndarray,
     transverse_radius: np.ndarray,
@@ -176,6 +252,30 @@ def hamrock_dowson(
     shape = 1.0 - 0.61 * np.exp(-0.73 * ellipticity(radius, transverse_radius))
     modulus = power(pressure_viscosity * reduced_modulus, 0.53)
     return 2.69 * radius * power(speed, POINT_EXPONENT) * modulus * power(group, -0.067) * shape
+
+
+def hamrock_dowson_soft(
+    radius: np.ndarray,
+    transverse_radius: np.ndarray,
+    entrainment_speed: np.ndarray,
+    load: np.ndarray,
+    viscosity: np.ndarray,
+    reduced_modulus: np.ndarray,
+) -> np.ndarray:
+    r"""Central film thickness of a soft point contact, whose oil stays thin (m).
+
+    .. math:: h = 7.32\, R_x\, U^{0.64} W^{-0.22} (1 - 0.72 e^{-0.28 k})
+
+    Groups and k as in `hamrock_dowson`. Source: B. J. Hamrock, D. Dowson, J. Lubr. Technol. 100 (1978) 236.
+
+    >>> h = hamrock_dowson_soft(9.5e-3, 9.5e-3, 0.01, 1.0, 0.28938, 2.667e8)
+    >>> round(float(h) * 1e9)
+    557
+    """
+    speed = viscosity * entrainment_speed / (reduced_modulus * radius)
+    group = load / (reduced_modulus * radius**2)
+    shape = 1.0 - 0.72 * np.exp(-0.28 * ellipticity(radius, transverse_radius))
+    return 7.32 * radius * power(speed, 0.64) * power(group, -0.22) * shape
 
 
 def nijenbanning(
@@ -206,11 +306,9 @@ def nijenbanning(
     m = load / (reduced_modulus * radius**2) * power(group, -0.75)
     ell = pressure_viscosity * reduced_modulus * power(group, 0.25)
     d = np.asarray(radius / transverse_radius)
-    k = 1.0 + 0.006 * np.log(d) + 0.63 * d ** (4 / 7)
     rigid = 145.0 * (1.0 + 0.796 * d ** (14 / 15)) ** (-15 / 7) / (d * m**2)
-    soft = 3.18 * k ** (-14 / 25) * d ** (-1 / 15) * m ** (-2 / 15)
+    soft, soft_thick = _elastic(radius, transverse_radius, group, load, pressure_viscosity, reduced_modulus)
     rigid_thick = 1.29 * (1.0 + 0.691 * d) ** (-2 / 3) * power(ell, 2 / 3)
-    soft_thick = 1.48 * k ** (-7 / 20) * d ** (-1 / 24) * m ** (-1 / 12) * power(ell, 0.75)
     s = 1.5 * (1.0 + np.exp(-1.2 * soft / soft_thick))
     isoviscous = (rigid**1.5 + (soft**-4 + (1.8 / d) ** -4) ** (-3 / 8)) ** (2 * s / 3)
     return radius * np.sqrt(group) * (isoviscous + (rigid_thick**-8 + soft_thick**-8) ** (-s / 8)) ** (1 / s)
@@ -235,6 +333,15 @@ def moes_line(moes_load: np.ndarray, moes_material: np.ndarray) -> np.ndarray:
     s = (7.0 + 8.0 * np.exp(-2.0 * elastic / rigid)) / 5.0
     isoviscous = (power(rigid, 7.0 / 3.0) + elastic ** (7.0 / 3.0)) ** (3.0 * s / 7.0)
     return (isoviscous + (viscous**-3.5 + piezo**-3.5) ** (-2.0 * s / 7.0)) ** (1.0 / s)
+
+
+def film_over_contact_width(film_thickness: np.ndarray, hertz_half_width: np.ndarray) -> np.ndarray:
+    """Film over the width of its Hertz contact (-), which is for thin and even films.
+
+    >>> film_over_contact_width(1e-6, 0.25e-3)
+    0.002
+    """
+    return film_thickness / (2.0 * hertz_half_width)
 
 
 def between_laws(regression_film: np.ndarray, regime_film: np.ndarray, film_regime: np.ndarray) -> np.ndarray:

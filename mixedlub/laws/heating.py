@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.chain.powers import power
 from mixedlub.laws.oil import ROELANDS_LOG
-from mixedlub.laws.powers import power
 
 _ITERATIONS = 4
 TOOTH_RISE_EXPONENT = 0.72

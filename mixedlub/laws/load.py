@@ -25,15 +25,15 @@ def gear_line_load(load_share: np.ndarray, transmitted_force: np.ndarray, contac
 
 
 def carries_load(line_load: np.ndarray) -> np.ndarray:
-    """Whether contact points of a path carry enough for the ranges of laws to matter there.
+    """Whether contact points of a path carry enough for the ranges of laws to matter there; none does without load.
 
     Points with less than a tenth of the largest line load, as relief and misalignment leave at ends and edges, carry
     hardly any of the loss.
 
-    >>> carries_load(np.array([1e-15, 9.0, 11.0, 100.0, 0.0])).tolist()
-    [False, False, True, True, False]
+    >>> carries_load(np.array([[1e-15, 9.0, 11.0, 100.0], [0.0, 0.0, 0.0, 0.0]])).tolist()
+    [[False, False, True, True], [False, False, False, False]]
     """
-    return np.asarray(line_load >= LIGHT * np.max(line_load, axis=-1, keepdims=True))
+    return np.asarray((line_load >= LIGHT * np.max(line_load, axis=-1, keepdims=True)) & (line_load > 0.0))
 
 
 def disc_line_load(load: np.ndarray, contact_width: np.ndarray) -> np.ndarray:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.chain.powers import power
 from mixedlub.laws.oil import warmed_viscosity
-from mixedlub.laws.powers import power
 
 
 def flash_safety(

@@ -1,8 +1,9 @@
-"""Contact of two rough surfaces whose asperities meet off their tops, after Greenwood and Tripp.
+"""Contact of two rough surfaces whose asperities meet off their tops: Greenwood and Tripp over summit planes.
 
 Each surface has its own summits: density and radius of `roughness.mccool`, and a plane of the summits above its mean
 plane. Greenwood and Tripp take both surfaces alike; unlike ones follow from the same integral over the lateral offset,
-in which the overlap of two tops r apart is less by r^2/[2(R_1 + R_2)].
+in which the overlap of two tops r apart is less by r^2/[2(R_1 + R_2)]. Their law over mean planes is in the effect
+`asperity_law`.
 """
 
 from __future__ import annotations
@@ -13,7 +14,10 @@ from mixedlub.chain.slots import ASPERITY_AREA, ASPERITY_LOAD
 from roughness.integrals import pair_area_integral, pair_load_integral
 from roughness.mccool import plane_offset, summit_density, summit_radius, summit_sigma
 
-GREENWOOD_TRIPP = "elastic asperities on both surfaces, which meet off their tops, of Greenwood and Tripp"
+GREENWOOD_TRIPP = (
+    "Greenwood and Tripp over summit planes: elastic asperities on both surfaces, which meet off their tops; over mean "
+    "planes it is a law of the effect asperity_law"
+)
 
 
 def _summits(m0: np.ndarray, m2: np.ndarray, m4: np.ndarray) -> tuple[np.ndarray, ...]:

@@ -6,20 +6,15 @@ import tomllib
 from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
-from types import MappingProxyType
 from typing import cast
 
-from mixedlub.chain.part_law import GIVES, REGISTRY, Kind, PartLaw
-from mixedlub.schema.discovery import loaded
+from mixedlub.chain.part_law import PART_LAWS, Kind, PartLaw
 from profiles.errors import InputError, nearest
 
 
-@cache
 def catalogue() -> Mapping[tuple[Kind, str], PartLaw]:
     """All laws of parts, by kind and name."""
-    loaded(__name__, "mixedlub.parts")
-    kinds = list(GIVES)
-    return MappingProxyType(dict(sorted(REGISTRY.items(), key=lambda item: (kinds.index(item[0][0]), item[0][1]))))
+    return {(kind, name): law for kind, laws in PART_LAWS.items() for name, law in laws.all.items()}
 
 
 def of_kind(kind: Kind) -> Mapping[str, PartLaw]:
@@ -28,7 +23,7 @@ def of_kind(kind: Kind) -> Mapping[str, PartLaw]:
     >>> list(of_kind("seal"))
     ['iso_tr_14179_1', 'iso_tr_14179_2', 'skf_bearing_seals']
     """
-    return {name: law for (one, name), law in catalogue().items() if one == kind}
+    return PART_LAWS[kind].all
 
 
 def find(kind: Kind, name: str, where: str = "law") -> PartLaw:
@@ -39,10 +34,7 @@ def find(kind: Kind, name: str, where: str = "law") -> PartLaw:
     ...
     profiles.errors.InputError: law: 'dawsen': no such windage law; nearest known: 'dawson'
     """
-    known = of_kind(kind)
-    if name not in known:
-        raise InputError(f"no such {kind} law; {nearest(name, known)}", where=where, value=name)
-    return known[name]
+    return PART_LAWS[kind].find(name, where)
 
 
 @cache

@@ -3,9 +3,11 @@
 import numpy as np
 
 from mixedlub.chain.part_law import part_law
+from mixedlub.chain.ranges import holds_within
 from mixedlub.laws import drag
 
 
+@holds_within({"bath_acceleration": (0.0, drag.SLOW_BATH)})
 @part_law(
     "churning",
     "changenet_velex",

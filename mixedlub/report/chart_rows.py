@@ -11,9 +11,9 @@ from urllib.parse import quote
 
 import numpy as np
 
+from mixedlub.chain.ranges import as_words
 from mixedlub.report.plots import some, spread
 from mixedlub.study.columns import VALIDITY, every_column
-from mixedlub.study.range_flags import as_words
 from mixedlub.study.results import LEVELS, Results
 
 if TYPE_CHECKING:

@@ -11,8 +11,9 @@ from functools import cache
 import numpy as np
 
 from mixedlub.case import reference_rigs
-from mixedlub.chain.effect import Effect, entry
+from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Model
+from mixedlub.chain.plain_text import entry
 from mixedlub.effects import catalogue, find
 from mixedlub.kinds import KINDS
 

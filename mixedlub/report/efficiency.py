@@ -84,7 +84,7 @@ def breakdown_figure(title: str, losses: Losses) -> Figure:
 
 def _stacked(axis: Axes, losses: Losses, across: np.ndarray, chosen: np.ndarray) -> None:
     order = np.argsort(across[chosen])
-    origins = present(losses)
+    origins = [origin for origin in present(losses) if losses.total(origins=(origin,)).any()]
     stack = [losses.total(origins=(origin,))[chosen][order] for origin in origins]
     place = across[chosen][order]
     if place.size == 1:
@@ -123,9 +123,10 @@ def _cycle(cycles: Sequence[MeshCycle]) -> Iterator[Panel]:
     for group, one in enumerate(cycles):
         name = f"{one.stage.name}, {one.stage.driving} drives"
         mean = np.full(one.phase.size, 100.0 * one.efficiency.mean())
+        rolling = [("loss of the mesh (W)", one.rolling, f"{name}: rolling", "--")] if one.rolling.any() else []
         for up, values, label, style in (
             ("loss of the mesh (W)", one.sliding, f"{name}: sliding", "-"),
-            ("loss of the mesh (W)", one.rolling, f"{name}: rolling", "--"),
+            *rolling,
             ("tooth efficiency (%); dotted: mean", 100.0 * one.efficiency, "", "-"),
             ("tooth efficiency (%); dotted: mean", mean, "", ":"),
             ("friction coefficient of the mesh (-)", one.friction, "", "-"),

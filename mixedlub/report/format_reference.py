@@ -13,38 +13,23 @@ from typing import Any, Literal, get_args, get_origin
 import numpy as np
 
 from mixedlub.chain.documented import described
-from mixedlub.chain.effect import entry
-from mixedlub.efficiency.file import EfficiencyFile
-from mixedlub.ehl.file import EhlFile
+from mixedlub.chain.plain_text import entry
 from mixedlub.evaluate import EVALUATIONS
 from mixedlub.friction import catalogue
-from mixedlub.gear.analysis.file import GearAnalysisFile
 from mixedlub.kinds import KINDS, Kind, kind
+from mixedlub.report.file_classes import EVERY_CASE, FILES, STUDY, file_class
 from mixedlub.schema.section import FileTable, Key, Section, plain, tables
 from mixedlub.schema.system_file import System
 from mixedlub.schema.table import BOOKKEEPING, RUN, Column, check_column, sd_column
 from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import unit_of
-from mixedlub.study.factor_file import FactorFile
-from mixedlub.study.schema import StudyFile
 from profiles.errors import InputError, nearest
 
 WIDTH = 80
 """Columns of a terminal."""
 LEAST_MEANING_WIDTH = 22
 """Columns that a meaning needs to the right of its key: about three words."""
-STUDY = "study"
-FILES: dict[str, type[Section]] = {
-    STUDY: StudyFile,
-    "factors": FactorFile,
-    "gear": GearAnalysisFile,
-    "efficiency": EfficiencyFile,
-    "ehl": EhlFile,
-}
-"""Files other than cases, by the command that reads them."""
 FRICTION_LAWS = "friction-laws"
-EVERY_CASE = ("", "uncertainty", "recording")
-"""Tables of `system.toml` that do not depend on its kind."""
 _GAP = "  "
 
 Row = tuple[str, ...]
@@ -54,12 +39,12 @@ Row = tuple[str, ...]
 def kinds_text(name: str | None = None) -> str:
     """The format of one kind of case, of all of them, of a study file, or of a file of another command."""
     if name in FILES:
-        return "\n".join(_file("a study file" if name == STUDY else f"a file of `mixedlub {name}`", FILES[name]))
+        return "\n".join(_file("a study file" if name == STUDY else f"a file of `mixedlub {name}`", file_class(name)))
     if name == FRICTION_LAWS:
         return "\n".join(_friction_laws())
-    if name is not None and name in EVALUATIONS:
-        return "\n".join(_evaluation(name))
     if name is not None and name not in KINDS:
+        if name in EVALUATIONS:
+            return "\n".join(_evaluation(name))
         known = (*KINDS, *FILES, FRICTION_LAWS, *EVALUATIONS)
         raise InputError(f"no such kind; {nearest(name, known)}", where="KIND", value=name)
     chosen = [kind(n) for n in (KINDS if name is None else (name,))]

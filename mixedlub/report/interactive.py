@@ -54,7 +54,7 @@ GREY, INK = "#5b6770", "#1d2329"
 
 @dataclass(frozen=True, eq=False)
 class Explorer:
-    """What the page needs: specification and rows of the chart, text of the library, meaning of the flags."""
+    """Specification and rows of the chart, text of the library (empty without it), and meaning of the flags."""
 
     specification: Mapping[str, Any]
     rows: ChartRows
@@ -63,12 +63,14 @@ class Explorer:
 
 
 def explorer(results: Results) -> Explorer:
-    """The interactive chart of a study with all that it needs."""
-    import altair as alt
-    import vl_convert
-
+    """The interactive chart of a study with its rows; without its library, which is an extra, the rows alone."""
     rows = chart_rows(results)
-    flags = [(code, one.text) for code, one in zip(results.flags, out_of_range(results), strict=True)]
+    flags = [(code, one.text) for code, one in zip(results.flags, out_of_range(results), strict=False)]
+    try:
+        import altair as alt
+        import vl_convert
+    except ModuleNotFoundError:
+        return Explorer({}, rows, "", flags)
     version = ".".join(alt.SCHEMA_VERSION.split(".")[:2])
     library = vl_convert.javascript_bundle(vl_version=version)  # type: ignore[call-arg]
     return Explorer(specification(results, rows), rows, library, flags)

@@ -8,16 +8,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from html import escape
 
+from mixedlub.chain.law import DISPLAY, SOURCE
 from mixedlub.chain.model import Model
 from mixedlub.effects import find
 from mixedlub.report.equations import equation
 
 _INLINE = re.compile(r":math:`([^`]+)`")
-_DISPLAY = re.compile(r"\.\. math::(.*?)(?:\n\s*\n|\Z)", re.DOTALL)
 DISPLAY_SIZE = 20.0
 
 _SENTENCE = re.compile(r"(?<=[.:;]) (?=[A-Z`])")
-_SOURCE = re.compile(r"Source: (.*?)(?:\n\s*\n|\Z)", re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -48,8 +47,8 @@ def law_text(docstring: str, gives: str) -> LawText:
     >>> law_text("Height (m). ``z`` has two axes.\\n\\nSource: A. Author, 1999.", "height")
     LawText(gives='height', says='Height (m).', source='A. Author, 1999.', effect='')
     """
-    source = _SOURCE.search(docstring)
-    parts = _DISPLAY.split(_SOURCE.sub("", docstring))
+    source = SOURCE.search(docstring)
+    parts = DISPLAY.split(SOURCE.sub("", docstring))
     says = "".join(_displayed(part) if i % 2 else _inlined(_for_readers(part)) for i, part in enumerate(parts))
     return LawText(gives, says, escape(" ".join(source[1].split())) if source else "")
 

@@ -13,12 +13,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mixedlub.laws.oil import ZERO_CELSIUS, gold_pressure_viscosity
-from mixedlub.rig.lubricant import Lubricant
+from mixedlub.rig.lubricant import ROELANDS, Lubricant
 from mixedlub.rig.measured import Measured, Traces
+from mixedlub.rig.oil_doubts import doubts
 from mixedlub.rig.surface import Surface
 from mixedlub.schema import surface_file, system_file
 from mixedlub.schema.findings import collected, finding, report
-from mixedlub.schema.oil_file import oil_of, overridden
+from mixedlub.schema.oil_file import KnownCoefficient, oil_of, overridden
 from mixedlub.schema.toml_file import named_file
 from profiles import SHIPPED_MARK, shipped
 from profiles.errors import InputError
@@ -33,6 +34,8 @@ LONG_CUTOFF, SHORT_CUTOFF = 0.8e-3, 2.5e-6
 """Cut-offs (m) of a map that states none; the middle row of ISO 3274."""
 
 
+LEAST_SPAN = 30.0
+"""Judgement. Difference of two temperatures (K) below which rounding to 0.1 1/GPa would change the fall between."""
 DEFAULT_BASE = "mineral"
 """Base stock of an oil that names none: most gear oils are mineral."""
 
@@ -47,8 +50,12 @@ def typical(section: system_file.Lubricant) -> dict[str, Any]:
     """A typical oil of the base stock; its pressure-viscosity by Gold's relation at the viscosities of the section."""
     base = dict(named_bases()[section.base or DEFAULT_BASE])
     at = section.kinematic_viscosity_mm2_s or base["kinematic_viscosity_mm2_s"]
-    alpha = gold_pressure_viscosity(np.array(at) * 1e-6, *base.pop("gold")) * 1e9
-    return {**base, "pressure_viscosity_per_GPa": alpha.round(1).tolist()}
+    gold = base.pop("gold")
+    if section.known_pressure_viscosity is not None:
+        return base
+    alpha = gold_pressure_viscosity(np.array(at) * 1e-6, *gold) * 1e9
+    near = abs(np.subtract(*(section.temperature_C or base["temperature_C"]))) < LEAST_SPAN
+    return {**base, "pressure_viscosity_per_GPa": alpha.round(4 if near else 1).tolist()}
 
 
 def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (), folder: Path = Path()) -> Lubricant:
@@ -76,9 +83,9 @@ def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (
             where="lubricant.kinematic_viscosity_mm2_s",
             value=(nu1, nu2),
         )
-    a1, a2 = full["pressure_viscosity_per_GPa"]
+    a1, a2 = full.get("pressure_viscosity_per_GPa", (0.0, 0.0))
     modulus = full.get("pressure_modulus_MPa")
-    return Lubricant(
+    oil = Lubricant(
         name=section.name,
         temperature=(t1 + ZERO_CELSIUS, t2 + ZERO_CELSIUS),
         kinematic_viscosity=(nu1 * 1e-6, nu2 * 1e-6),
@@ -91,6 +98,29 @@ def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (
         pressure_modulus=None if modulus is None else (modulus[0] * 1e6, modulus[1] * 1e6),
         modulus_slope=full.get("pressure_modulus_slope"),
     )
+    if section.known_pressure_viscosity is not None:
+        oil = _carried(oil, section.known_pressure_viscosity, section.base or DEFAULT_BASE, unread)
+    for one in doubts(oil, unread):
+        report(one)
+    return oil
+
+
+def _carried(oil: Lubricant, known: KnownCoefficient, base: str, unread: Collection[str]) -> Lubricant:
+    """The oil with its one known pressure-viscosity coefficient at other temperatures, which is said."""
+    at, (_, power) = known.temperature_C, named_bases()[base]["gold"]
+    found = oil.carrying(known.coefficient_per_GPa * 1e-9, at + ZERO_CELSIUS, known.carried, power)
+    if "pressure_viscosity_per_GPa" not in unread:
+        way = "the exponent of Roelands" if known.carried == ROELANDS else f"Gold's exponent of base {base}"
+        values = " and ".join(
+            f"{alpha * 1e9:.3g} at {kelvin - ZERO_CELSIUS:g} °C"
+            for alpha, kelvin in zip(found.pressure_viscosity, found.temperature, strict=True)
+        )
+        text = (
+            f"pressure-viscosity coefficient of {found.name}, {known.coefficient_per_GPa:g} 1/GPa, known at {at:g} °C "
+            f"alone; carried to other temperatures at {way}: {values}"
+        )
+        report(finding("coefficient_carried", text, "lubricant"))
+    return found
 
 
 def _report_oil(section: system_file.Lubricant, folder: Path) -> None:
@@ -106,7 +136,7 @@ def _report_oil(section: system_file.Lubricant, folder: Path) -> None:
         )
         report(finding("oil_overridden", f"{text} of oil {section.oil}", "lubricant"))
     properties = oil_of(section.oil, folder).properties
-    typical = [name for name, p in properties.items() if p.status == "typical" and name not in other]
+    typical = [name for name, p in properties.items() if p.status == "typical" and p.entry(name)[0] not in other]
     if typical:
         text = f"{', '.join(typical)} of oil {section.oil} not printed by its source; typical of its class"
         report(finding("oil_typical", text, "lubricant"))
@@ -259,6 +289,10 @@ def flank_map(name: str, section: surface_file.SurfaceSection, folder: Path) -> 
             cutoff=long if fits else None,
             short_cutoff=short if resolved else None,
         )
+    holes = int(np.count_nonzero(~np.isfinite(area.heights)))
+    if holes:
+        text = f"{holes} of {area.heights.size} points of the map have no height; its moments leave them out"
+        report(finding("trace_quality", text, f"surfaces.{name}"))
     said = f"cutoff_mm = {long * 1e3:g}" if fits else "no cut-off, as the map is shorter than 0.8 mm"
     said += f", short_cutoff_um = {short * 1e6:g}" if resolved else ""
     if section.cutoff_mm is None or section.short_cutoff_um is None:
@@ -300,6 +334,7 @@ def surface(name: str, section: surface_file.SurfaceSection, found: Measured | N
         **values,
         lay=section.lay or ("transverse" if section.has_two_directions else None),
         peklenik=None if found is None else found.peklenik,
+        mean_over_rms=None if found is None else found.mean_over_rms,
         coating_thickness=0.0 if coating is None else coating.thickness_um * 1e-6,
         coating_conductivity=2.0 if coating is None else coating.thermal_conductivity_W_mK,
         conductivity=section.thermal_conductivity_W_mK,

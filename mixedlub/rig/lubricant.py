@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mixedlub.laws import oil
 
+LINEAR, ROELANDS, GOLD = "linear", "roelands", "gold"
+"""Ways of the pressure-viscosity coefficient from its two values to other temperatures."""
+
 
 @dataclass(frozen=True)
 class Lubricant:
-    """An oil in SI: two points of kinematic viscosity, pressure-viscosity coefficient, density, heat."""
+    """An oil in SI: two points of kinematic viscosity, pressure-viscosity coefficient, density, heat.
+
+    The coefficient is ``carried`` to other temperatures: linear in temperature through its two values, at the exponent
+    of Roelands, or as the power of the kinematic viscosity through them.
+    """
 
     name: str
     temperature: tuple[float, float]
@@ -24,6 +31,7 @@ class Lubricant:
     heat_capacity: float
     pressure_modulus: tuple[float, float] | None = None
     modulus_slope: tuple[float, float] | None = None
+    carried: str = LINEAR
 
     def density(self, temperature: np.ndarray) -> np.ndarray:
         """Density at ambient pressure (kg/m^3): linear in temperature (K)."""
@@ -34,9 +42,60 @@ class Lubricant:
         nu = oil.kinematic_viscosity(temperature, self.temperature, self.kinematic_viscosity)
         return nu * self.density(temperature)
 
+    def carrying(self, coefficient: float, temperature: float, way: str, power: float) -> Lubricant:
+        """The oil with a pressure-viscosity coefficient (1/Pa) known at one temperature (K).
+
+        ``power`` is the exponent of the kinematic viscosity in the relation of Gold.
+
+        >>> oil = Lubricant("ester", (313.15, 373.15), (23e-6, 4.9e-6), (0, 0), 995.0, 8e-4, 5e6, 0.14, 2e3)
+        >>> [round(alpha * 1e9, 1) for alpha in oil.carrying(14.2e-9, 327.15, "roelands", 0.0).pressure_viscosity]
+        [15.4, 11.2]
+        """
+        known = np.array([temperature, *self.temperature])
+        if way == ROELANDS:
+            shape = np.log(self.viscosity(known)) + oil.ROELANDS_LOG
+        else:
+            shape = (self.viscosity(known) / self.density(known)) ** power
+        first, second = coefficient * shape[1:] / shape[0]
+        return replace(self, pressure_viscosity=(float(first), float(second)), carried=way)
+
     def pressure_coefficient(self, temperature: np.ndarray) -> np.ndarray:
-        """Pressure-viscosity coefficient (1/Pa): linear in temperature through its two values."""
+        """Pressure-viscosity coefficient (1/Pa), carried from its two values."""
+        first = self.pressure_viscosity[0]
+        if self.carried == ROELANDS:
+            exponent = oil.roelands_exponent(self.viscosity(np.array(self.temperature[0])), first)
+            return oil.roelands_coefficient(self.viscosity(temperature), exponent)
+        if self.carried == GOLD:
+            thinner = self.viscosity(temperature) / self.density(temperature) / self.kinematic_viscosity[0]
+            return np.asarray(first * thinner**self._power)
         return self._linear(self.pressure_viscosity, temperature)
+
+    @property
+    def _power(self) -> float:
+        """Exponent of the kinematic viscosity in the pressure-viscosity coefficient, through the two values."""
+        (a1, a2), (nu1, nu2) = self.pressure_viscosity, self.kinematic_viscosity
+        return float(np.log(a1 / a2) / np.log(nu1 / nu2))
+
+    def fall(self, temperature: np.ndarray) -> np.ndarray:
+        """Relative fall of the viscosity at ambient pressure (1/K)."""
+        thinner = self.density_change * self.density_15 / self.density(temperature)
+        return oil.temperature_viscosity(temperature, self.temperature, self.kinematic_viscosity) + thinner
+
+    def coefficient_change(self, temperature: np.ndarray) -> np.ndarray:
+        """Change of the pressure-viscosity coefficient per kelvin (1/(Pa K))."""
+        (t1, t2), (a1, a2) = self.temperature, self.pressure_viscosity
+        if self.carried == ROELANDS:
+            exponent = oil.roelands_exponent(self.viscosity(np.array(t1)), a1)
+            return np.asarray(-exponent * self.fall(temperature) / oil.ROELANDS_PRESSURE)
+        if self.carried == GOLD:
+            thinner = oil.temperature_viscosity(temperature, self.temperature, self.kinematic_viscosity)
+            return np.asarray(-self._power * thinner * self.pressure_coefficient(temperature))
+        return np.full_like(temperature, (a2 - a1) / (t2 - t1), dtype=float)
+
+    def log_under_pressure(self, pressure: np.ndarray, temperature: np.ndarray) -> np.ndarray:
+        """Logarithm of the viscosity (Pa s) under pressure by Roelands."""
+        viscosity, coefficient = self.viscosity(temperature), self.pressure_coefficient(temperature)
+        return np.log(oil.roelands_viscosity(viscosity, coefficient, pressure))
 
     def _linear(self, values: tuple[float, float], temperature: np.ndarray) -> np.ndarray:
         """A property that is linear in temperature (K), by its values at the two known temperatures."""
@@ -45,15 +104,15 @@ class Lubricant:
 
     def inputs(self, temperature: np.ndarray) -> dict[str, np.ndarray | float]:
         """What the chain wants to know of the oil at a temperature (K), by glossary name."""
-        (t1, t2), (a1, a2) = self.temperature, self.pressure_viscosity
+        coefficient = self.pressure_coefficient(temperature)
         viscosity, known = self.viscosity(temperature), self.viscosity(np.array(self.temperature))
         return {
             "viscosity": viscosity,
-            "pressure_viscosity": self.pressure_coefficient(temperature),
+            "pressure_viscosity": coefficient,
             "temperature_viscosity": oil.temperature_viscosity(
                 temperature, self.temperature, self.kinematic_viscosity, self.density_change
             ),
-            "coefficient_fall": (a1 - a2) / ((t2 - t1) * self.pressure_coefficient(temperature)),
+            "coefficient_fall": -self.coefficient_change(temperature) / coefficient,
             "first_known_temperature": self.temperature[0],
             "second_known_temperature": self.temperature[1],
             "known_fall": float(np.log(known[0] / known[1])),

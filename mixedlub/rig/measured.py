@@ -78,6 +78,19 @@ class Measured:
         beside = self.along.moments
         return values | {"m2_along": beside.m2, "m4_along": beside.m4}
 
+    @property
+    def mean_over_rms(self) -> float:
+        """Measured Ra over Rq: mean height of the sampling lengths of all traces, or of the map, over its rms."""
+        from roughness.parameters import evaluation_length
+
+        if self.area is not None:
+            heights = self.area.heights - self.area.heights.mean()
+            return float(np.abs(heights).mean() / heights.std())
+        assert self.across is not None
+        parts = [evaluation_length(one) for one in self.across.filtered]
+        ra = float(np.mean([np.abs(one.heights[one.valid]).mean() for one in parts]))
+        return ra / self.across.moments.m0**0.5
+
     def axes(self, name: str) -> tuple[Mapping[str, float], ...]:
         """Changes of the logarithms of the moments at the ends of the band of their scatter, one an axis."""
         from roughness.lay import mean_axes
@@ -153,7 +166,7 @@ class Measured:
     def heights(self) -> np.ndarray:
         """All filtered heights: of the map, or of the traces across the lay (m)."""
         if self.area is not None:
-            return self.area.heights.ravel()
+            return self.area.heights[np.isfinite(self.area.heights)]
         profile = self.profile()
         return profile.heights[profile.valid]
 

@@ -14,11 +14,9 @@ from mixedlub.schema.findings import Finding, collected, finding
 from mixedlub.schema.system_file import Contact, System
 from profiles.errors import InputError
 
-LEAST_HARD_MODULUS = 50e9
-"""Judgement. Reduced modulus (Pa) of metals, ceramics and glass at least."""
-YIELD_RATIO = 0.025
-"""Source: ISO 76. Hertz pressure over reduced modulus at which these yield: bearings are rated to 4.2 GPa, 0.018 of the
-modulus of steel; polymers bear a larger share."""
+ELASTOMER = (0.3, 0.45)
+"""Source: M. F. Ashby, Materials Selection in Mechanical Design, 4th ed. (2011). Modulus (GPa) below which a body is
+rubber or foam, and Poisson ratio from which it is rubber."""
 MOST_BACKLASH = 0.1
 """Judgement. Backlash over normal module; ISO/TR 10064-2 recommends at least 0.02 to 0.05 for industrial gears."""
 BANDWIDTH = (1.0 - 1e-6, 1e5)
@@ -27,7 +25,7 @@ BANDWIDTH = (1.0 - 1e-6, 1e5)
 
 def implausible(rig: Rig, surfaces: Collection[str] | None = None) -> Iterator[Finding]:
     """What is implausible about a rig; of its ``surfaces``, all where none are named."""
-    yield from ranges.unusual(rig.file)
+    yield from (one for one in ranges.unusual(rig.file) if not _of_elastomer(rig, one))
     if rig.file.gears is not None:
         yield from rig.sharing.check(rig.gears)
         yield from _backlash(rig)
@@ -37,6 +35,15 @@ def implausible(rig: Rig, surfaces: Collection[str] | None = None) -> Iterator[F
         found = _surface(rig, name)
         if found is not None:
             yield from _roughness(found, f"surfaces.{name}", rig.file.surfaces[name])
+
+
+def _of_elastomer(rig: Rig, found: Finding) -> bool:
+    """Whether a finding doubts the small modulus of a body that hardly changes its volume, as rubber does."""
+    contact = rig.file.contact if isinstance(rig.file, System) else None
+    if contact is None or not found.place.startswith("contact.youngs_modulus_GPa"):
+        return False
+    both = zip(contact.youngs_modulus_GPa, contact.poisson_ratio, strict=True)
+    return all(e > ELASTOMER[0] or nu >= ELASTOMER[1] for e, nu in both)
 
 
 def _backlash(rig: Rig) -> Iterator[Finding]:
@@ -63,15 +70,6 @@ def _ellipticity(contact: Contact) -> Iterator[Finding]:
 
 def _reduced(radii: tuple[float, float]) -> np.ndarray:
     return np.asarray(1.0 / sum(1.0 / r for r in radii))
-
-
-def yields(pressure: np.ndarray, modulus: float) -> np.ndarray:
-    """Whether hard bodies of a reduced modulus (Pa) yield at a Hertz pressure (Pa); soft ones are not judged.
-
-    >>> yields(np.array([2e9, 12e9]), 226e9).tolist(), bool(yields(2e9, 2e9))
-    ([False, True], False)
-    """
-    return (np.asarray(pressure) > YIELD_RATIO * modulus) & (modulus >= LEAST_HARD_MODULUS)
 
 
 def _surface(rig: Rig, name: str) -> Surface | None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from mixedlub.laws.contact import MEAN_OF_NORMAL
+from mixedlub.schema.findings import Finding, finding
 from profiles.errors import InputError
 
 
@@ -16,7 +18,7 @@ class Surface:
 
     ``m2`` and ``m4`` are across the ``lay`` where it is known, those along it are ``m2_along`` and ``m4_along``; a
     surface without a lay has none of these. ``peklenik`` is the correlation length across the lay over that along it.
-    ``steps`` is what was done to the trace that the moments are of.
+    ``steps`` is what was done to the trace that the moments are of. ``mean_over_rms`` is the measured Ra over sqrt(m0).
     """
 
     name: str
@@ -33,6 +35,12 @@ class Surface:
     m2_along: float | None = None
     m4_along: float | None = None
     peklenik: float | None = None
+    mean_over_rms: float | None = None
+
+    @property
+    def mean_roughness(self) -> float:
+        """Ra (m), as measured, or of normal heights where only moments are stated."""
+        return (self.mean_over_rms or MEAN_OF_NORMAL) * float(self.m0) ** 0.5
 
     @property
     def bandwidth(self) -> float:
@@ -78,6 +86,21 @@ def check_lays(first: Surface, second: Surface) -> None:
             'm2_along and m4_along_per_um2, or a map, or lay = "isotropic", for both or for neither'
         )
         raise InputError(rule, where=f"surfaces.{unknown.name}")
+
+
+def mean_over_rms(first: Sequence[Surface], second: Sequence[Surface]) -> np.ndarray:
+    """Sum of both Ra over the sum of both Rq, one entry a pair."""
+    pairs = list(zip(first, second, strict=True))
+    ra = np.array([a.mean_roughness + b.mean_roughness for a, b in pairs])
+    return ra / np.array([float(a.m0) ** 0.5 + float(b.m0) ** 0.5 for a, b in pairs])
+
+
+def mean_assumed(surfaces: Iterable[Surface]) -> Iterator[Finding]:
+    """The finding that the Ra of some surfaces, which a law reads, follows from Rq as of normal heights."""
+    stated = [one.name for one in surfaces if one.mean_over_rms is None]
+    if stated:
+        text = f"Ra of {', '.join(stated)} taken as {MEAN_OF_NORMAL:.3f} Rq, as of normal heights: no trace gives it"
+        yield finding("mean_roughness_assumed", text, "surfaces")
 
 
 def paired(first: Sequence[Surface], second: Sequence[Surface], coated: bool = False) -> dict[str, np.ndarray]:

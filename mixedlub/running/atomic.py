@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -100,9 +101,16 @@ def _take_along(before: Path, after: Path) -> None:
 
 def is_alive(process: str) -> bool:
     """Whether a process of this number runs on this machine."""
+    if not process.isdigit():
+        return False
+    if sys.platform == "win32":
+        # Signal 0, which POSIX only looks up, ends a process on Windows.
+        import psutil
+
+        return bool(psutil.pid_exists(int(process)))
     try:
         os.kill(int(process), 0)
-    except (ValueError, ProcessLookupError):
+    except (ProcessLookupError, OverflowError):
         return False
     except PermissionError:
         return True

@@ -5,20 +5,22 @@ from __future__ import annotations
 import multiprocessing
 import os
 import sys
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
 from typing import Any, TypeVar
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 _work: tuple[Callable[[Any], Any], Sequence[Any]] | None = None
+_WORKER = "MIXEDLUB_WORKER"
+"""Variable of the environment that marks a process as one of several."""
 
 
 def shared_out(function: Callable[[Item], Result], items: Sequence[Item]) -> list[Result]:
-    """``[function(item) for item in items]``, in forked processes that have all of this one's memory.
+    """``[function(item) for item in items]`` over the processors; in turn with one, and within one of its processes.
 
-    In turn where there is one processor or no fork, and within a process that itself is one of several.
+    Linux forks processes, which have all memory of this one; elsewhere they start anew and are sent function and items.
 
     >>> shared_out(lambda item: item**2, [1, 2, 3])
     [1, 4, 9]
@@ -28,23 +30,42 @@ def shared_out(function: Callable[[Item], Result], items: Sequence[Item]) -> lis
 
 
 def as_done(function: Callable[[Item], Result], items: Sequence[Item]) -> Iterator[tuple[int, Result]]:
-    """Places and results of ``function(item)``, each as soon as it is there; shared as by `shared_out`.
+    """Places and results of ``function(item)``, each as soon as it is computed; shared as by `shared_out`.
 
     >>> sorted(as_done(lambda item: item**2, [1, 2, 3]))
     [(0, 1), (1, 4), (2, 9)]
     """
-    count = min(len(items), len(os.sched_getaffinity(0)) if sys.platform == "linux" else 1)
-    if count < 2 or multiprocessing.parent_process() is not None:
+    count = min(len(items), processors())
+    if count < 2 or multiprocessing.parent_process() is not None or _WORKER in os.environ:
         yield from ((place, function(item)) for place, item in enumerate(items))
-        return
-    fork = multiprocessing.get_context("fork")
-    with ProcessPoolExecutor(count, fork, initializer=_take, initargs=(function, items)) as pool:
-        places = {pool.submit(_one, place): place for place in range(len(items))}
+    elif sys.platform == "linux":
+        fork = multiprocessing.get_context("fork")
+        with ProcessPoolExecutor(count, fork, initializer=_take, initargs=(function, items)) as pool:
+            try:
+                yield from _completed({pool.submit(_one, place): place for place in range(len(items))})
+            finally:
+                pool.shutdown(cancel_futures=True)
+    else:
+        # Spawned by the standard library, each process would run an unguarded script of the user again.
+        from loky import get_reusable_executor
+
+        others: Executor = get_reusable_executor(count, env={_WORKER: "1", "OPENBLAS_NUM_THREADS": "1"})
+        waiting = {others.submit(function, item): place for place, item in enumerate(items)}
         try:
-            for done in as_completed(places):
-                yield places[done], done.result()
+            yield from _completed(waiting)
         finally:
-            pool.shutdown(cancel_futures=True)
+            for one in waiting:
+                one.cancel()
+
+
+def processors() -> int:
+    """Number of processors that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _completed(places: Mapping[Future[Result], int]) -> Iterator[tuple[int, Result]]:
+    for done in as_completed(places):
+        yield places[done], done.result()
 
 
 def _take(function: Callable[[Any], Any], items: Sequence[Any]) -> None:

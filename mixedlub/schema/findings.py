@@ -99,6 +99,11 @@ class CautionWarning(UserWarning):
     """A caution or a doubt about the input or the result of a call from Python; its text begins with the severity."""
 
 
+def gravest_first(found: Iterable[Finding]) -> list[Finding]:
+    """Doubts, then cautions, then notes, each kind in its order."""
+    return sorted(found, key=lambda one: -list(Severity).index(one.severity))
+
+
 def as_texts(found: Iterable[Finding]) -> list[str]:
     """Findings as the commands print them: the severity, the place and the text, those of one kind as one.
 

@@ -9,13 +9,15 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, Field, model_validator
 
-from mixedlub.schema.section import Section, key
+from mixedlub.schema.section import Number, Section, key
 from mixedlub.schema.toml_file import parse, read_toml
 from profiles.errors import InputError, nearest
 
 SUFFIX, SCHEMA = ".toml", "mixedlub-oil/1"
+KNOWN = "known_pressure_viscosity"
+"""Key of a pressure-viscosity coefficient that is known at one temperature."""
 Status = Literal["stated", "derived", "typical"]
 STATUSES: Mapping[str, str] = {
     "stated": "printed by the source",
@@ -29,6 +31,19 @@ STOCKS: Mapping[str, str] = {
     "ester": "synthetic ester",
     "pag": "polyalkylene glycol",
 }
+
+
+Carried = Literal["roelands", "gold"]
+WAYS: Mapping[str, str] = {
+    "roelands": "at the same exponent Z of Roelands: alpha = Z (ln eta + 9.67)/p_r",
+    "gold": "as the power of the kinematic viscosity that Gold gives for the base stock",
+}
+
+
+class KnownCoefficient(Section):
+    coefficient_per_GPa: Number = key("pressure-viscosity coefficient", example=14.2)
+    temperature_C: Number = key("temperature at which it is known", example=54.0)
+    carried: Carried = key("its way to other temperatures", "roelands", values=WAYS)
 
 
 def one_or_two_numbers(value: Any) -> Any:
@@ -47,6 +62,28 @@ class Property(Section):
     )
     status: Status = key("where it comes from", example="stated", values=STATUSES)
     source: str = key("its source", example="data sheet")
+    temperature_C: Number | None = key(
+        "temperature of a pressure-viscosity coefficient known at one alone",
+        None,
+        example=54.0,
+        alternative=True,
+    )
+    carried: Carried | None = key("way of that coefficient to other temperatures", None, values=WAYS, alternative=True)
+
+    @model_validator(mode="after")
+    def _known_at_one(self) -> Property:
+        if (self.temperature_C is None) != (self.carried is None):
+            raise ValueError("a coefficient known at one temperature has both temperature_C and carried")
+        if self.carried is not None and isinstance(self.value, tuple):
+            raise ValueError("value: one number where temperature_C says at which temperature it is known")
+        return self
+
+    def entry(self, name: str) -> tuple[str, Any]:
+        """The key of a section ``[lubricant]`` that this property means, and its value."""
+        if self.carried is None:
+            return name, self.value
+        known = {"coefficient_per_GPa": self.value, "temperature_C": self.temperature_C, "carried": self.carried}
+        return KNOWN, known
 
 
 class FurtherLaw(Section):
@@ -73,7 +110,7 @@ class OilFile(Section):
     @property
     def keys(self) -> dict[str, Any]:
         """The keys of a section ``[lubricant]`` that this oil means."""
-        return {"name": self.name, "base": self.base} | {name: p.value for name, p in self.properties.items()}
+        return {"name": self.name, "base": self.base} | dict(p.entry(name) for name, p in self.properties.items())
 
 
 def oil_names() -> tuple[str, ...]:
@@ -129,8 +166,8 @@ def with_oil(given: Mapping[str, Any], folder: Path) -> dict[str, Any]:
         at = list(own["temperature_C"])
         rule = f"the oil has its values at {at} °C: leave it out, or give {' and '.join(lacking)} too"
         raise InputError(rule, where="temperature_C", value=given["temperature_C"])
-    if PAIRS[1] in given:
-        own = {name: value for name, value in own.items() if name not in MODULUS}
+    if PAIRS[1] in given or KNOWN in given:
+        own = {name: value for name, value in own.items() if name not in (*MODULUS, PAIRS[1], KNOWN)}
     return {**own, **given}
 
 

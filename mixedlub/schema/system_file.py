@@ -12,7 +12,7 @@ from pydantic import AfterValidator, ValidationInfo, create_model, field_validat
 
 from mixedlub.schema.discovery import declared
 from mixedlub.schema.gear_file import gear_names, with_preset
-from mixedlub.schema.oil_file import STOCKS, Base, oil_names, with_oil
+from mixedlub.schema.oil_file import STOCKS, Base, KnownCoefficient, oil_names, with_oil
 from mixedlub.schema.section import Float, Number, NumberOrName, Section, Whole, key, one_of, tables, with_ranges
 from mixedlub.schema.surface_file import SurfaceSection
 from profiles.errors import InputError
@@ -96,6 +96,7 @@ class Gears(Section):
         "working centre distance; left out: by the profile shift", None, example=91.0
     )
     face_width_mm: Number = key("common face width", example=14.0)
+    dedendum: Number = key("dedendum of the basic rack over module, which elastic teeth read", 1.25)
     youngs_modulus_GPa: Pair = key("Young's moduli", (206.0, 206.0))
     poisson_ratio: Pair = key("Poisson's ratios", (0.3, 0.3))
     load_sharing: LoadSharing = key(
@@ -158,6 +159,12 @@ class Lubricant(Section):
     pressure_viscosity_per_GPa: Pair | None = key(
         "pressure-viscosity coefficient there; linear between and beyond", None, example=[18.0, 14.0]
     )
+    known_pressure_viscosity: KnownCoefficient | None = key(
+        "instead of both: a coefficient known at one temperature, and its way to others",
+        None,
+        example={"coefficient_per_GPa": 14.2, "temperature_C": 54.0, "carried": "roelands"},
+        alternative=True,
+    )
     pressure_modulus_MPa: Pair | None = key(
         'A of the modulus equation there, for viscosity_law = "modulus"; linear between and beyond',
         None,
@@ -187,6 +194,15 @@ class Lubricant(Section):
     def _both_of_the_modulus(self) -> Lubricant:
         if (self.pressure_modulus_MPa is None) != (self.pressure_modulus_slope is None):
             raise ValueError("the modulus equation needs both pressure_modulus_MPa and pressure_modulus_slope")
+        return self
+
+    @model_validator(mode="after")
+    def _one_coefficient(self) -> Lubricant:
+        if self.known_pressure_viscosity is not None:
+            if self.pressure_viscosity_per_GPa is not None:
+                raise ValueError("known_pressure_viscosity takes the place of pressure_viscosity_per_GPa: give one")
+            if self.known_pressure_viscosity.carried == "gold" and self.base is None:
+                raise ValueError('known_pressure_viscosity.carried = "gold" needs base, for the exponent of Gold')
         return self
 
     @model_validator(mode="before")

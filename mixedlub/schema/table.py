@@ -16,6 +16,7 @@ from mixedlub.schema.findings import Finding, finding, listed, report
 from mixedlub.schema.ranges import probable_unit
 from mixedlub.schema.units import fits, read_as, split, unit_of, words_of
 from profiles.errors import InputError, nearest, refuse_no_file
+from profiles.units import number_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -57,7 +58,7 @@ class Column:
         if self.optional_cells and is_missing(text):
             return float("nan")
         try:
-            value = float(text)
+            value = number_of(text)
         except ValueError:
             raise InputError(f"{self.name} must be a number", where=where, value=text) from None
         if not np.isfinite(value):
@@ -81,7 +82,7 @@ class Column:
             if self.dtype == "name":
                 names = {cell: self.parse(cell, self.name) for cell in set(cells)}
                 return np.array([names[cell] for cell in cells])
-            values = np.fromiter(map(float, cells), float, len(cells))
+            values = np.fromiter(map(number_of, cells), float, len(cells))
         except ValueError:
             return None
         allowed = (values > self.above) & (values >= self.at_least) & (values <= self.at_most) & np.isfinite(values)
@@ -158,7 +159,7 @@ def is_missing(cell: str) -> bool:
 def is_number(cell: str) -> bool:
     """Whether a cell can be read as a number."""
     try:
-        float(cell)
+        number_of(cell)
     except ValueError:
         return False
     return True
@@ -208,8 +209,11 @@ def read_table(
     if "\0" in text:
         raise InputError(f"is not a text table; {advice}", where=where)
     try:
-        reader = csv.reader(text.splitlines())
-        lines = [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
+        lines = [
+            line
+            for line in csv_rows([*enumerate(text.splitlines(), start=1)], where)
+            if any(cell.strip() for cell in line[1])
+        ]
     except csv.Error as error:
         raise InputError(f"is not a comma-separated table ({error})", where=where) from None
     header = [cell.strip() for cell in lines[0][1]] if lines else []
@@ -224,6 +228,31 @@ def read_table(
     text = f"no column {RUN.name}: rows are numbered from {runs[0]} to {runs[-1]}"
     report(finding("runs_numbered", text, path.name))
     return replace(found, columns={RUN.name: runs, **found.columns})
+
+
+def csv_rows(
+    numbered: Sequence[tuple[int, str]], where: str, separator: str = ",", *, headings: bool = False
+) -> Iterator[tuple[int, list[str]]]:
+    """The cells of numbered lines; an error on a quoted cell that runs on into the next line.
+
+    With ``headings`` a cell of words may run on, as in the headings of spreadsheets; a blank stands for the line end.
+
+    >>> list(csv_rows([(3, 'a,"b, c"')], "t.csv"))
+    [(3, ['a', 'b, c'])]
+    >>> list(csv_rows([(3, 'a,"b'), (4, 'c"')], "t.csv"))
+    Traceback (most recent call last):
+    ...
+    profiles.errors.InputError: t.csv: line 3: 'b c': a quoted cell must end in its line
+    """
+    reader, first = csv.reader((f"{line}\n" for _, line in numbered), delimiter=separator), 0
+    for row in reader:
+        number = numbered[first][0]
+        broken = [cell for cell in row if "\n" in cell and not (headings and separator not in cell)]
+        if broken:
+            rule = "a quoted cell must end in its line"
+            raise InputError(rule, where=f"{where}: line {number}", value=" ".join(broken[0].split()))
+        yield number, [cell.replace("\n", " ") for cell in row] if headings else row
+        first = reader.line_num
 
 
 def span(name: str, values: np.ndarray) -> str:

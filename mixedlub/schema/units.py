@@ -229,13 +229,25 @@ def split(header: str) -> tuple[str, str | None]:
 
     >>> split("Rolling Speed (mm/s)"), split("temperature_degC"), split("Load")
     (('rolling speed', 'mm/s'), ('temperature', '°C'), ('load', None))
-    >>> split("Dynamic viscosity [kg/(m s)]")
-    ('dynamic viscosity', 'kg/(m s)')
+    >>> split("Dynamic viscosity [kg/(m s)]"), split("viscosity_m2_s")
+    (('dynamic viscosity', 'kg/(m s)'), ('viscosity', 'm2/s'))
     """
     found = re.fullmatch(r"\s*(.*?)\s*[(\[]\s*((?:[^()\[\]]|/\s*\([^()\[\]]*\))*?)\s*[)\]]\s*", header)
     plain = header.strip()
-    words, unit = (found.group(1), found.group(2)) if found else (without_unit(plain), unit_of(plain) or None)
+    words, unit = (found.group(1), found.group(2)) if found else _of_name(plain)
     return re.sub(r"[\s_]+", " ", words).strip().lower(), unit or None
+
+
+def _of_name(name: str) -> tuple[str, str | None]:
+    """Words and unit of a name with underscores; a unit over another is known without a row of its own.
+
+    >>> _of_name("speed_um_s"), _of_name("speed_m_s"), _of_name("shear_rate_1_s"), _of_name("time_s")
+    (('speed', 'um/s'), ('speed', 'm/s'), ('shear_rate', '1/s'), ('time', 's'))
+    """
+    *words, over, under = ["", "", *name.rsplit("_", 2)]
+    if words[-1] and "_" not in ending_of(name) and is_unit(f"{over}/{under}"):
+        return words[-1], f"{over}/{under}"
+    return without_unit(name), unit_of(name) or None
 
 
 def words_of(header: str) -> str:

@@ -55,6 +55,6 @@ def against_published(found: Regression) -> pd.DataFrame:
     grid = [axis.ravel() for axis in np.meshgrid(*axes, [radius], indexing="ij")]
     values = [one.factor * axis for one, axis in zip(INPUTS, grid, strict=True)]
     own = condensed(*values, **found.coefficients)
-    published = xu_kahraman(*values, np.full_like(own, SMOOTH))
+    published = xu_kahraman(*[*values, np.full_like(own, SMOOTH)])
     table = pd.DataFrame(dict(zip([one.column for one in INPUTS], grid, strict=True)))
     return table.assign(condensed_friction=own, published_friction=published, published_over_condensed=published / own)

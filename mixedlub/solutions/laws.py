@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub.chain.law import Law
 from mixedlub.chain.ranges import beyond
-from mixedlub.chain.slots import FILM, FILM_FRICTION, SHEAR, VISCOSITY, Choice
+from mixedlub.chain.slots import FILM, FILM_FRICTION, SHEAR, VISCOSITY
 from mixedlub.effects.film_heating import film_heating
 from mixedlub.effects.inlet_shear_heating import inlet_shear_heating
 from mixedlub.effects.rolling_resistance import rolling_resistance
@@ -72,6 +73,7 @@ def state_of(of: Oil, found: Contacts) -> State:
     }
     chain: tuple[tuple[str, Callable[..., Any]], ...] = (
         ("moes_load", film.moes_load),
+        ("isoviscous_ratio", film.isoviscous_ratio),
         ("film_thickness", film.dowson_toyoda),
         ("flash_per_friction", heating.flash_per_friction),
         *_SHEARED,
@@ -98,10 +100,10 @@ def _films() -> Iterator[Compared]:
     for choice in FILM.choices.values():
         kind = "minimum" if MINIMUM in choice.name else "flow" if choice.law is film.moes else "central"
 
-        def thick(state: State, _: Mapping[str, np.ndarray], of: Choice = choice) -> np.ndarray:
+        def thick(state: State, _: Mapping[str, np.ndarray], of: Law = choice) -> np.ndarray:
             return np.where(beyond(state, of.valid), np.nan, 1e9 * called(of.law, state))
 
-        yield Compared(choice.name, f"isothermal_{kind}_film_nm", thick, choice.meaning)
+        yield Compared(choice.name, f"isothermal_{kind}_film_nm", thick, choice.title)
 
 
 def _heat() -> Iterator[Compared]:
@@ -133,7 +135,7 @@ def _readings() -> Iterator[Compared]:
     meaning = "Dowson and Toyoda, Roelands and Ree-Eyring at the largest pressure, against an isothermal solution"
     yield Compared("base model, isothermal", "isothermal_friction", lambda state, _: state["fluid_friction"], meaning)
     changed = [
-        (f"{slot.option} = {choice.name}", {slot.quantity: choice.law}, choice.meaning)
+        (f"{slot.option} = {choice.name}", {slot.quantity: choice.law}, choice.title)
         for slot in (VISCOSITY, SHEAR, FILM_FRICTION)
         for choice in slot.choices.values()
         if choice.name not in (slot.default, OWN_CONSTANTS)

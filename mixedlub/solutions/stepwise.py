@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Literal
+from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 import pandas as pd
@@ -30,11 +31,58 @@ ALIKE = 1e-6
 CONSTANT = coefficient_name("")
 
 
-def least_squares(design: pd.DataFrame, wanted: np.ndarray) -> Any:
-    """Ordinary least squares by statsmodels."""
-    from statsmodels.regression.linear_model import OLS
+@dataclass(frozen=True, eq=False)
+class LinearFit:
+    """Ordinary least squares: coefficients with standard errors by name, residuals, and leverages of the readings."""
 
-    return OLS(wanted, design).fit()
+    coefficients: pd.Series
+    standard_errors: pd.Series
+    residuals: np.ndarray
+    leverages: np.ndarray
+    total_squares: float
+
+    @property
+    def freedom(self) -> int:
+        """Number of readings less that of coefficients."""
+        return len(self.residuals) - len(self.coefficients)
+
+    @property
+    def squares(self) -> float:
+        """Sum of squared residuals."""
+        return float(self.residuals @ self.residuals)
+
+    @property
+    def p_values(self) -> pd.Series:
+        """Two-sided p-values of the coefficients."""
+        t_values = (self.coefficients / self.standard_errors).abs()
+        return pd.Series(2.0 * student.sf(t_values, self.freedom), index=t_values.index)
+
+    @property
+    def standardised_residuals(self) -> np.ndarray:
+        """Internally studentised residuals."""
+        return self.residuals / np.sqrt(self.squares / self.freedom * (1.0 - self.leverages))
+
+
+def least_squares(design: pd.DataFrame, wanted: np.ndarray) -> LinearFit:
+    """Ordinary least squares of readings over the columns of a design, one of which is constant.
+
+    >>> x = np.arange(4.0)
+    >>> fit = least_squares(pd.DataFrame({"one": 1.0, "x": x}), np.array([1.0, 3.1, 4.9, 7.0]))
+    >>> fit.coefficients.round(2).tolist(), fit.standard_errors.round(4).tolist(), fit.p_values.round(4).tolist()
+    ([1.03, 1.98], [0.0794, 0.0424], [0.0059, 0.0005])
+    """
+    values = design.to_numpy()
+    inverse = np.linalg.pinv(values)
+    found = inverse @ wanted
+    residuals = wanted - values @ found
+    variance = residuals @ residuals / (len(wanted) - len(found))
+    return LinearFit(
+        pd.Series(found, index=design.columns),
+        pd.Series(np.sqrt(variance * (inverse**2).sum(axis=1)), index=design.columns),
+        residuals,
+        np.einsum("ij,ji->i", values, inverse),
+        float(((wanted - wanted.mean()) ** 2).sum()),
+    )
 
 
 def chosen_terms(design: pd.DataFrame, wanted: np.ndarray, criterion: Criterion) -> list[str]:
@@ -161,26 +209,28 @@ def measured_regression(
     fit = least_squares(every[kept], wanted)
     coefficients = (
         dict.fromkeys([*map(str, every), *OIL], 0.0)
-        | {name: float(fit.params[name]) for name in kept}
+        | {name: float(fit.coefficients[name]) for name in kept}
         | limits_of(values)
     )
     table = pd.DataFrame({one.column: values[one.name] for one in INPUTS} | {"friction_coefficient": friction})
     table["fitted"] = fitted(values, coefficients)
     table["residual_of_log"] = wanted - np.log(table["fitted"].to_numpy())
-    table["standardised_residual"] = fit.get_influence().resid_studentized_internal
+    table["standardised_residual"] = fit.standardised_residuals
     quality = _quality(fit, *errors_left_out(asked, wanted, by))
-    return Regression(coefficients, {name: float(fit.bse[name]) for name in kept}, table, quality)
+    return Regression(coefficients, {name: float(fit.standard_errors[name]) for name in kept}, table, quality)
 
 
-def _quality(fit: Any, left_out: np.ndarray, parts: int) -> dict[str, float]:
-    """How many readings and terms, and how well the law has them."""
+def _quality(fit: LinearFit, left_out: np.ndarray, parts: int) -> dict[str, float]:
+    """Number of readings and terms, and measures of the misfit of the law."""
+    readings, terms = len(fit.residuals), len(fit.coefficients)
+    unexplained = fit.squares / fit.total_squares
     return {
-        "readings": int(fit.nobs),
-        "terms": len(fit.params),
-        "r_squared": float(fit.rsquared),
-        "adjusted_r_squared": float(fit.rsquared_adj),
-        "rms_of_log": float(np.sqrt(np.mean(np.asarray(fit.resid) ** 2))),
+        "readings": readings,
+        "terms": terms,
+        "r_squared": 1.0 - unexplained,
+        "adjusted_r_squared": 1.0 - unexplained * (readings - 1) / fit.freedom,
+        "rms_of_log": float(np.sqrt(fit.squares / readings)),
         "left_out_rms_of_log": float(np.sqrt(np.mean(left_out**2))),
         "left_out_parts": parts,
-        "bic": float(fit.bic),
+        "bic": float(readings * (np.log(2.0 * np.pi * fit.squares / readings) + 1.0) + terms * np.log(readings)),
     }

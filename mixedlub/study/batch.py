@@ -20,6 +20,7 @@ import numpy as np
 
 from mixedlub.chain.model import Model, Step
 from mixedlub.chain.ranges import farthest_beyond
+from mixedlub.laws.balance import share_lacking
 from mixedlub.laws.contact import asperity_load_ratio, mean_hertz_pressure
 from mixedlub.laws.load import carries_load
 from mixedlub.laws.loss import over_path
@@ -56,12 +57,12 @@ RATED = ("mean_flash",)
 RATED_FILMS = ("least_specific_film",)
 """Further outputs where it states one of the film."""
 CHECKS = ("largest_area_ratio",)
-SHARED_CHECKS = ("balance_error", "film_below_its_share")
+SHARED_CHECKS = ("balance_error", "share_lacking")
 """Further checks where film and asperities share the load."""
 FILM_OVER_WIDTH = "film_over_contact_width"
 """Check: the largest film of the path over the width of the Hertz contact there."""
 BEYOND = "beyond_"
-"""Before an effect or law and a quantity of its range: the value farthest beyond this range, NaN where none is."""
+"""Before the key of a limit: the value farthest beyond its range, NaN where none is."""
 BLOCK_POINTS = 4_000_000
 
 Found = dict[str, np.ndarray]
@@ -91,7 +92,7 @@ def names(plan: Plan) -> tuple[str, ...]:
         *CHECKS,
         FILM_OVER_WIDTH,
         *shared,
-        *(BEYOND + name for name, *_ in plan.range_ends),
+        *(BEYOND + limit.key for limit in plan.limits),
     )
 
 
@@ -209,8 +210,8 @@ def reduced(state: Inputs, plan: Plan) -> Found:
         **{name: state[name] for name in (*(SPUR if plan.spur else ()), *map(loss_of, plan.losing))},
         **(_shared(state, judged, mean_pressure) if plan.balanced else {}),
     }
-    for name, quantity, ends in plan.range_ends:
-        found[BEYOND + name] = farthest_beyond(state[quantity], ends, judged)
+    for limit in plan.limits:
+        found[BEYOND + limit.key] = farthest_beyond(state[limit.quantity], limit.ends, judged)
     return found
 
 
@@ -243,7 +244,7 @@ def _shared(state: Inputs, judged: np.ndarray, mean_pressure: np.ndarray) -> Fou
         "mean_asperity_load_share": over_path(share, weight),
         "film_over_unbalanced": over_path(state["film_thickness"] / state["full_load_film"], weight),
         "balance_error": _largest(np.abs(share + of_film - 1.0), judged),
-        "film_below_its_share": np.any(judged & (of_film < state["least_film_share"]), axis=-1, keepdims=True),
+        "share_lacking": _largest(share_lacking(of_film, state["least_film_share"]), judged),
     }
 
 

@@ -8,7 +8,7 @@ from typing import Any
 from mixedlub import friction
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Parameters, available
-from mixedlub.chain.slots import SLIDING_POWER
+from mixedlub.chain.slots import SLIDING_POWER, STEPS
 from mixedlub.effects import LAW, find, known_effects, known_in
 from mixedlub.schema.findings import finding, report
 from mixedlub.study.heat import check_exponent
@@ -25,6 +25,7 @@ def chosen_effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Ef
     _refuse_unread(file, tuple(inputs))
     for e in find(sorted(file.effects), "effects"):
         _refuse_ignored(e, file.options)
+        _refuse_second_law(e, file.options)
     known = known_effects(file.effects, "gear_pair", study_chain(file.options), tuple(inputs), "power_loss")
     for effect, name in known.sds:
         raise InputError("a study has no uncertainty; leave it out", where=f"effects.{effect}.{name}_sd")
@@ -51,6 +52,16 @@ def _refuse_ignored(e: Effect, options: Options) -> None:
         rule = f"changes the contact area and not the load of the asperities; it needs {' and '.join(changed)}"
         other = '; for asperities that yield, asperities = "chang_etsion_bogy" has the same law with its load'
         raise InputError(rule + (other if e.id == "asperity_plasticity" else ""), where=f"effects.{e.id}")
+
+
+def _refuse_second_law(e: Effect, options: Options) -> None:
+    """Refuse an effect that replaces a step for which an option chooses another law than its default."""
+    default = Options()
+    for name in STEPS.get(e.replaces, ()):
+        value = getattr(options, name)
+        if value != getattr(default, name):
+            rule = f'and options.{name} = "{value}" are two laws of one step, the {e.replaces}; leave one of them out'
+            raise InputError(rule, where=f"effects.{e.id}")
 
 
 def _tell_defaults(e: Effect, given: Mapping[str, float | str], values: Mapping[str, float]) -> None:

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.chain.ranges import GRADES, VALID
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.schema.result import ResultColumn, described
 from mixedlub.schema.section import table
@@ -16,8 +17,6 @@ from mixedlub.study.bands import HIGH, LOW
 from mixedlub.study.bands import column as band_column
 from mixedlub.study.schema import StudyFile
 
-VALID = "valid"
-"""What the table says of a condition with no flag."""
 VALIDITY = "validity"
 """ResultColumn that says of a condition where it is outside the range of the model."""
 
@@ -193,13 +192,14 @@ COLUMNS = {c.output: c for c in (*FIRST, *ends_of_bands(FIRST), *FURTHER, *ends_
 CHECKS = {
     "largest_area_ratio": "boundary area ratio where asperities carry most, as asperity_load_ratio has it",
     "balance_error": "part of the load by which film and asperities together miss it, the largest of the same places",
-    "film_below_its_share": "1 where the film carries less than its law is for, anywhere on the path",
+    "share_lacking": "least load share that the film law is for over the film's own, where asperities carry 5 %",
 }
 """Meaning of the checks of a computation that no table has."""
 OF_VALIDITY = ResultColumn(
     VALIDITY,
     VALIDITY,
-    f"'{VALID}', or the kinds of findings that say why the condition is outside the model's range",
+    f"'{VALID}', or how far the condition is outside the model's range ({', '.join(GRADES[1:])}) and, behind "
+    "semicolons, the kinds of findings that say why",
     given_unit="text",
 )
 

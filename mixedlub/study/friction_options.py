@@ -7,7 +7,6 @@ from collections.abc import Mapping
 import numpy as np
 
 from mixedlub import friction
-from mixedlub.chain.documented import check_given
 from mixedlub.chain.friction_law import FrictionLaw
 from mixedlub.chain.model import Model
 from mixedlub.rig.lubricant import Lubricant
@@ -22,7 +21,7 @@ PLACE = "options.friction_coefficients"
 def check_coefficients(options: Options, place: str = PLACE) -> None:
     """Refuse coefficients that the law does not have, and those that it lacks; report the defaults taken."""
     law, given = friction.find(options.friction), options.friction_coefficients
-    check_given(law, given, place, f"mixedlub friction-laws {law.name}")
+    law.check_given(given, place, f"mixedlub friction-laws {law.name}")
     assumed = [f"{c.name} = {c.default:g}" for c in law.coefficients if c.name not in given]
     if assumed:
         report(finding("friction_coefficient_assumed", f"{', '.join(assumed)} taken for {law.name}", place))

@@ -9,11 +9,11 @@ from types import MappingProxyType
 from typing import Any
 
 from mixedlub import friction
+from mixedlub.base_model.balanced import balanced
+from mixedlub.base_model.chains import GEAR_LOSS
 from mixedlub.chain.model import Chain, Law, Model
 from mixedlub.chain.slots import FILM, SLIDING_POWER, SLOTS, VISCOSITY
 from mixedlub.laws import contact, heating, loss, oil, pitch_point, safety
-from mixedlub.laws.balanced import balanced
-from mixedlub.laws.base_models import GEAR_LOSS
 from mixedlub.laws.contact import asperity_pressure, mean_hertz_pressure
 from mixedlub.laws.film import dowson_higginson
 from mixedlub.laws.rough_film import film_over_roughness, rough_film

@@ -13,9 +13,11 @@ from typing import Any
 import numpy as np
 
 from mixedlub import friction
+from mixedlub.base_model.limits import law_limits
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Chain, Law, Model, Parameters
-from mixedlub.chain.slots import ASPERITY_LOAD, SLOTS
+from mixedlub.chain.ranges import Limit, of_law
+from mixedlub.chain.slots import ASPERITY_LOAD
 from mixedlub.effects import find
 from mixedlub.friction import FrictionLaw
 from mixedlub.gear import GearPair, Mesh
@@ -27,7 +29,7 @@ from mixedlub.rig.build import check_bandwidth
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.plausibility import implausible
 from mixedlub.rig.rig import Rig
-from mixedlub.rig.surface import Surface, paired
+from mixedlub.rig.surface import Surface, mean_assumed, mean_over_rms, paired
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, report
 from mixedlub.schema.table_files import escaped
@@ -41,7 +43,7 @@ from mixedlub.study.friction_options import (
 )
 from mixedlub.study.heat import LOSS, heat_inputs, rating_inputs
 from mixedlub.study.heights import HeightTables, height_tables
-from mixedlub.study.options import FURTHER, RATED, at_hardness, ignored, study_chain
+from mixedlub.study.options import FURTHER, RATED, at_hardness, study_chain
 from mixedlub.study.origins import by_origin, losing
 from mixedlub.study.schema import Options, Pairings, Safety, StudyFile
 from profiles.errors import InputError, as_path, nearest, refuse_other
@@ -107,7 +109,7 @@ class Plan:
 
         ``also`` names quantities wanted beside its own.
         """
-        return by_origin(self._model((*also, *(name for valid in self.ranges.values() for name in valid))))
+        return by_origin(self._model((*also, *(limit.quantity for limit in self.limits))))
 
     def _model(self, checked: Iterable[str]) -> Model:
         of_balance = BALANCED if self.balanced else ()
@@ -123,22 +125,14 @@ class Plan:
         return self.safety is not None and self.safety.permissible_film_ratio is not None
 
     @cached_property
-    def ranges(self) -> Mapping[str, Mapping[str, tuple[float, float]]]:
-        """The range of every active effect and chosen law that has one, by its name: in SI, by quantity."""
-        unread = ignored(self.options, self._model(()))
-        chosen = [slot.choices[getattr(self.options, slot.option)] for slot in SLOTS if slot.option not in unread]
-        known = {e.id: e.valid_at(self.parameters[e.id]) for e in self.effects}
-        known |= {c.law.__name__: c.valid for c in chosen}
+    def limits(self) -> tuple[Limit, ...]:
+        """The range of every active effect and chosen law that has one, at points of the path."""
+        found = law_limits(self._model(()).steps, self.effects, self.parameters)
         if self.options.film_roughness != "none":
-            known["rough_film"] = {"film_over_roughness": (THINNEST, np.inf)}
+            found += of_law("rough_film", {"film_over_roughness": (THINNEST, np.inf)})
         if self.friction is not None:
-            known[self.friction.name] = {**self.friction.valid, "friction": (0.0, MOST_FRICTION)}
-        return {name: valid for name, valid in known.items() if valid}
-
-    @property
-    def range_ends(self) -> tuple[tuple[str, str, tuple[float, float]], ...]:
-        """Every range: its name, of the effect or law and the quantity, the quantity, and both ends in SI."""
-        return tuple((f"{n}:{q}", q, ends) for n, valid in self.ranges.items() for q, ends in valid.items())
+            found += of_law(self.friction.name, {**self.friction.valid, "friction": (0.0, MOST_FRICTION)})
+        return found
 
     @property
     def _of_heights(self) -> Mapping[str, Law]:
@@ -165,6 +159,11 @@ class Plan:
     def losing(self) -> tuple[str, ...]:
         """The active effects that add a loss outside the mesh."""
         return losing(self.effects)
+
+    @property
+    def reads_mean_roughness(self) -> bool:
+        """Whether a law reads the arithmetic mean roughness."""
+        return any("mean_roughness" in step.outputs for step in self.model().steps)
 
     @property
     def balanced(self) -> bool:
@@ -319,6 +318,9 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     inputs |= rating_inputs(inputs, parameters)
     plan = Plan(inputs, options, parameters, shape, points.position.size, moved, heights, file.safety)
     check_friction(file, plan.model())
+    if plan.reads_mean_roughness:
+        for found in mean_assumed(surfaces.values()):
+            report(found)
     if plan.balanced and options.mixture == "tallian":
         report(finding("balance_by_area", BY_AREA, "options.mixture"))
     return Study(name, file, rig, pair, points, oil, surfaces, chosen, effects, plan)
@@ -377,6 +379,7 @@ def mesh_inputs(points: Mesh, share: np.ndarray, torque: np.ndarray, speed: np.n
 
 def surface_inputs(pairs: list[tuple[Surface, Surface]]) -> dict[str, np.ndarray]:
     """Inputs of the surfaces, pairing by pairing."""
-    both = paired([a for a, _ in pairs], [b for _, b in pairs])
+    first, second = [a for a, _ in pairs], [b for _, b in pairs]
+    both = {**paired(first, second), "mean_over_rms": mean_over_rms(first, second)}
     alike = {name for name in SOLIDS if np.ptp(both[name]) == 0.0}
     return {name: (v[:1] if name in alike else v).reshape(-1, 1, 1, 1, 1) for name, v in both.items()}

@@ -13,10 +13,11 @@ import numpy as np
 
 from mixedlub import friction
 from mixedlub.rig.build import DEFAULT_BASE, ZERO_CELSIUS
-from mixedlub.rig.lubricant import Lubricant
+from mixedlub.rig.lubricant import LINEAR, Lubricant
 from mixedlub.rig.surface import Surface
 from mixedlub.running.atomic import is_alive
 from mixedlub.running.origin import Origin, is_same
+from mixedlub.schema.oil_file import KNOWN
 from mixedlub.schema.section import Section
 from mixedlub.schema.surface_file import SURFACE_FILES, SurfaceSection
 from mixedlub.schema.system_file import Gears
@@ -121,13 +122,22 @@ def _oil(oil: Lubricant) -> dict[str, Any]:
         "name": oil.name,
         "temperature_C": [_plain(t - ZERO_CELSIUS) for t in oil.temperature],
         "kinematic_viscosity_mm2_s": [_plain(nu * 1e6) for nu in oil.kinematic_viscosity],
-        "pressure_viscosity_per_GPa": [_plain(alpha * 1e9) for alpha in oil.pressure_viscosity],
+        **_coefficient(oil),
         "density_15C_kg_m3": oil.density_15,
         "density_change_per_K": oil.density_change,
         "eyring_stress_MPa": _plain(oil.eyring_stress * 1e-6),
         "thermal_conductivity_W_mK": oil.conductivity,
         "specific_heat_J_kgK": oil.heat_capacity,
     }
+
+
+def _coefficient(oil: Lubricant) -> dict[str, Any]:
+    """The pressure-viscosity coefficient: at both temperatures, or at the first with its way to others."""
+    both = [_plain(alpha * 1e9) for alpha in oil.pressure_viscosity]
+    if oil.carried == LINEAR:
+        return {"pressure_viscosity_per_GPa": both}
+    first = _plain(oil.temperature[0] - ZERO_CELSIUS)
+    return {KNOWN: {"coefficient_per_GPa": both[0], "temperature_C": first, "carried": oil.carried}}
 
 
 def _plain(value: float) -> float:

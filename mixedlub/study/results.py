@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mixedlub.chain.ranges import as_words
 from mixedlub.running.version import installed_version
-from mixedlub.schema.findings import Finding, Severity, as_texts, listed
+from mixedlub.schema.findings import Finding, as_texts, gravest_first, listed
 from mixedlub.schema.result import ResultColumn
 from mixedlub.schema.table import span
 from mixedlub.schema.table_files import LongTable, write_long
@@ -32,8 +33,7 @@ from mixedlub.study.columns import (
 from mixedlub.study.derived import derived
 from mixedlub.study.pieces import Block
 from mixedlub.study.plan import Study, counted, factors
-from mixedlub.study.range_flags import as_words, flags
-from mixedlub.study.validity import out_of_range
+from mixedlub.study.validity import flags_of, out_of_range
 from profiles.errors import InputError, refuse_other
 
 if TYPE_CHECKING:
@@ -101,13 +101,13 @@ class Results:
 
     @cached_property
     def flags(self) -> Mapping[str, np.ndarray]:
-        """Where conditions are outside the range of the model, by the code of the finding that says why."""
-        return flags(self.study.plan, self.values, self.study.mesh.notes)
+        """Grades of the conditions, 0 within the range of the model, by the code of the finding that says why."""
+        return flags_of(self.study.plan, self.values, self.study.mesh.notes)
 
     @cached_property
     def outside(self) -> np.ndarray:
         """Whether a condition is outside the range of the model for any reason."""
-        return np.logical_or.reduce([np.zeros(self.study.plan.shape, bool), *self.flags.values()])
+        return np.logical_or.reduce([np.zeros(self.study.plan.shape, bool), *(g > 0 for g in self.flags.values())])
 
     @property
     def columns(self) -> tuple[ResultColumn, ...]:
@@ -118,8 +118,7 @@ class Results:
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
         """What a reader should know: doubts, conditions outside the range of the model, then assumptions."""
-        found = (*out_of_range(self), *self.study.notes)
-        return tuple(sorted(found, key=lambda one: one.severity is not Severity.DOUBT))
+        return tuple(gravest_first((*out_of_range(self), *self.study.notes)))
 
     def __getitem__(self, name: str) -> np.ndarray:
         """An output in SI by its name in ``values``."""

@@ -90,7 +90,7 @@ def _laws() -> Any:
     fields: dict[str, Any] = {}
     for slot in SLOTS:
         together = [other.choices for other in SLOTS if other.option == slot.option]
-        values = {c.name: c.meaning for c in slot.choices.values() if all(c.name in one for one in together)}
+        values = {c.name: c.title for c in slot.choices.values() if all(c.name in one for one in together)}
         fields[slot.option] = (Literal[tuple(values)], key(slot.meaning, slot.default, values=values))
     meaning = "law of the friction coefficient; `mixedlub friction-laws NAME` shows its page"
     values = {law.name: f"{law.title}, {PLACES[law.place]}" for law in catalogue().values()}

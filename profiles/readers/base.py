@@ -42,6 +42,19 @@ class Source:
         return PurePath(self.bare).stem or self.where
 
 
+class HoldsMap(InputError):
+    """A height map where a trace was asked for."""
+
+    def __init__(self, where: str, shape: tuple[int, ...]) -> None:
+        file = PurePath(where).name
+        size = " x ".join(map(str, shape))
+        rule = (
+            f'holds an areal map of {size} points, not a profile: name it as map = "{file}" of a surface in a study '
+            f'or case, or cut a trace by profiles.image.along_direction(read_map("{file}"), angle)'
+        )
+        super().__init__(rule, where=where)
+
+
 class Reader(Protocol):
     """One file format. ``magic`` is cheap and never raises; ``read`` raises InputError and nothing else."""
 
@@ -72,27 +85,6 @@ def checked_count(count: int, available: int, where: str) -> int:
     if count > available:
         raise InputError(f"the file declares more points than it holds ({available})", where=where, value=count)
     return count
-
-
-def equal_spacing(positions: np.ndarray, quantum: float, where: str) -> float:
-    """The step of positions that are equally spaced but for the rounding ``quantum`` they were written with.
-
-    A column rounded to 0.1 um still has the step it was measured with: first to last over the count.
-    """
-    steps = np.diff(positions)
-    if not (steps >= 0).all() or positions[-1] <= positions[0]:
-        row = int(np.argmin(steps > 0)) + 1
-        raise InputError("positions must increase", where=f"{where}: point {row + 1}", value=float(positions[row]))
-    step = float((positions[-1] - positions[0]) / steps.size)
-    off = np.abs(positions - (positions[0] + step * np.arange(positions.size)))
-    worst = int(off.argmax())
-    if off[worst] > 1e-3 * step and (off[worst] > 1.01 * quantum or quantum > 0.75 * step):
-        raise InputError(
-            "positions must be equally spaced; if only their column is bad, give the step as spacing '0.5 um'",
-            where=f"{where}: point {worst + 1}",
-            value=float(positions[worst]),
-        )
-    return step
 
 
 def bridged(heights: np.ndarray, present: np.ndarray, where: str) -> np.ndarray:

@@ -5,11 +5,13 @@ from __future__ import annotations
 import io
 import zipfile
 from collections.abc import Callable
+from dataclasses import replace
 
 from profiles.errors import InputError
 from profiles.profile import Profile
 from profiles.readers.archive import ZIP_FAULTS, check_archive, members
 from profiles.readers.base import Source
+from profiles.readers.positions import RESAMPLED
 
 
 class ZipReader:
@@ -47,6 +49,10 @@ class ZipReader:
                     found[name] = self._read_source(inner)
                 except InputError:
                     continue
+        equal = {name: one for name, one in found.items() if not any(s.startswith(RESAMPLED) for s in one.steps)}
+        if len(equal) == 1 < len(found):
+            ((name, one),) = equal.items()
+            return replace(one, steps=(*one.steps, f"{name} read: {len(found) - 1} more without equal steps"))
         if len(found) != 1:
             listed = ", ".join(list(found) or names)[:300]
             rule = "more than one profile in the archive" if found else "no profile in the archive"

@@ -12,7 +12,8 @@ import numpy as np
 from profiles.errors import InputError
 from profiles.profile import Profile
 from profiles.readers.archive import check_archive, member
-from profiles.readers.base import MAX_POINTS, Source, equal_spacing, foreign_parser, make_profile
+from profiles.readers.base import MAX_POINTS, Source, foreign_parser, make_profile
+from profiles.readers.positions import sampled
 from profiles.readers.workbook import is_workbook
 from profiles.units import known_unit, length, metres
 
@@ -64,8 +65,16 @@ class MitutoyoReader:
         if settings.get("N", "").isdigit() and int(settings["N"]) > 0:
             origin["sampling_lengths"] = int(settings["N"])
         steps = ("roughness profile filtered by the instrument",) if cutoffs else ()
-        step = equal_spacing(x, 1e-4, where) * 1e-3
-        return make_profile(source, z * metres(unit, where), step, origin, steps=steps, cutoffs=cutoffs)
+        trace = sampled(x, z * metres(unit, where), np.ones(z.size, bool), 1e-4, where)
+        return make_profile(
+            source,
+            trace.heights,
+            trace.step * 1e-3,
+            origin,
+            present=trace.present,
+            steps=(*steps, *trace.notes),
+            cutoffs=cutoffs,
+        )
 
 
 def _stated(lines: list[str], where: str) -> tuple[dict[str, float], str]:

@@ -10,7 +10,7 @@ from profiles.errors import InputError
 from profiles.profile import Profile
 from profiles.readers.archive import MAX_UNPACKED, check_xml
 from profiles.readers.base import Source, checked_count, foreign_parser, make_profile
-from profiles.units import known_unit, metres
+from profiles.units import known_unit, metres, number_of
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
@@ -47,8 +47,8 @@ class NistXmlReader:
         scale = metres(unit, f"{where}: UNITS")
         try:
             count = int(file.findtext("NUMPOINTS", ""))
-            spacing = float(file.findtext("SPACING", "")) * scale
-            heights = np.array(file.findtext("DATA_POINT_VALUES", "").split(), dtype=float) * scale
+            spacing = number_of(file.findtext("SPACING", "")) * scale
+            heights = np.array([number_of(word) for word in file.findtext("DATA_POINT_VALUES", "").split()]) * scale
         except ValueError as error:
             raise InputError(f"not a number ({error})", where=f"{where}: DATAFILE") from None
         if checked_count(count, heights.size, where) != heights.size:
@@ -66,7 +66,7 @@ class NistXmlReader:
 def _short_cutoff(root: Element) -> float | None:
     """The short cut-off (m) that NIST applied; None where it applied none."""
     try:
-        cutoff = float(root.findtext("ANALYSIS/FILTER/SHORT_CUTOFF", "")) * metres(
+        cutoff = number_of(root.findtext("ANALYSIS/FILTER/SHORT_CUTOFF", "")) * metres(
             root.findtext("ANALYSIS/FILTER/UNITS", "")
         )
     except ValueError:
@@ -84,7 +84,7 @@ def _values(root: Element, profile: str) -> dict[str, float]:
     found = {}
     for item in results:
         try:
-            value = float(item.text or "")
+            value = number_of(item.text or "")
         except ValueError:
             continue
         name = item.tag.capitalize() if item.tag.isupper() else item.tag.replace("Dq", "dq")

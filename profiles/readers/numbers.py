@@ -5,29 +5,53 @@ from __future__ import annotations
 import itertools
 import math
 import re
+from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
 
 from profiles.errors import InputError
 from profiles.readers.base import MAX_POINTS
-from profiles.units import known_unit
+from profiles.units import known_unit, number_of
 
 _NUMBER = re.compile(r"[-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d+)?\Z")
 _ABSENT = re.compile(r"[-+]?(?:nan|inf|infinity|n/a|na|null|none|-+|\*+|#n/a|bad)\Z", re.IGNORECASE)
 _SAMPLE = 200
+_COUNT = re.compile(r"\d{1,9}\Z")
+_COUNT_LINES = 3
+"""First lines of numbers among which a count of the rows is looked for."""
+_FEWEST_COUNTED = 10
+"""Rows below a count, at least: fewer are as many as a height says by chance."""
 NO_NUMBERS = "no column of numbers found in the text"
 
 
 @dataclass(frozen=True)
+class Counted:
+    """The number of heights that a file states above them, its line, and the length stated beside it."""
+
+    count: int
+    line: int
+    length: float | None = None
+
+
+@dataclass(frozen=True)
 class Table:
-    """The lines above the numbers, and the columns of numbers; ``first_line`` counts from one."""
+    """The columns of numbers, the lines above and below them, and the count of rows among the lines above."""
 
     header: tuple[str, ...]
     columns: np.ndarray
     delimiter: str | None
     quantum: float
-    first_line: int
+    counted: Counted | None = None
+    footer: tuple[str, ...] = ()
+    footer_line: int = 0
+
+    def alone(self, where: str) -> Table:
+        """The table, where the format has no words below the numbers."""
+        if self.footer:
+            rule = "the numbers end above this line; delete what is below"
+            raise InputError(rule, where=f"{where}: line {self.footer_line}", value=self.footer[0])
+        return self
 
 
 def decoded(data: bytes, where: str) -> str:
@@ -120,14 +144,63 @@ def table(text: str, where: str) -> Table:
     start = next((i for i in range(min(len(lines), 2000)) if _starts_numbers(lines, i)), None)
     if start is None:
         raise InputError(NO_NUMBERS, where=where)
-    body = lines[start:]
+    end = _end_of_numbers(lines, start)
+    counted = _counted(lines[:end], start)
+    first = counted.line if counted else start
+    body = lines[first:end]
     if len(body) > MAX_POINTS:
         raise InputError(f"at most {MAX_POINTS} points can be read", where=where, value=len(body))
     sample = [line for line in body[:_SAMPLE] if line.strip() and _is_numbers(line)]
-    delimiter, comma = _style(sample, next((line for line in reversed(lines[:start]) if line.strip()), ""))
-    width = len(split(sample[0], delimiter))
-    columns = _parse(body, delimiter, comma, width, where, start + 1)
-    return Table(tuple(lines[:start]), columns, delimiter, _quantum(sample, delimiter), start + 1)
+    delimiter, comma = _style(sample, next((line for line in reversed(lines[:first]) if line.strip()), ""))
+    width = Counter(len(split(line, delimiter)) for line in sample).most_common(1)[0][0]
+    columns = _parse(body, delimiter, comma, width, where, first + 1)
+    below = next((i for i in range(end, len(lines)) if lines[i].strip()), end)
+    footer = tuple(line for line in lines[below:] if line.strip())
+    return Table(tuple(lines[:first]), columns, delimiter, _quantum(sample, delimiter), counted, footer, below + 1)
+
+
+def _end_of_numbers(lines: list[str], start: int) -> int:
+    """The number of lines without those at the end that begin with a word, as results of the instrument do."""
+    end = len(lines)
+    while end > start and (not (line := lines[end - 1].strip()) or not (line[0] in "+-.,;*" or line[0].isdigit())):
+        if line and _ABSENT.match(re.split(r"[,;\s]", line)[0]):
+            break
+        end -= 1
+    return end
+
+
+def _counted(lines: list[str], start: int) -> Counted | None:
+    """The count of rows in the first lines of numbers; it equals the rows below, or can be no height."""
+    above: list[float] = []
+    for place in range(start, min(start + _COUNT_LINES, len(lines) - _FEWEST_COUNTED)):
+        words = [word for word in re.split(r"[;\s]+", lines[place].strip()) if word]
+        if len(words) > 2 or not all(map(_NUMBER.match, words)):
+            return None
+        for word in filter(_COUNT.match, words):
+            below = [line for line in lines[place + 1 :] if line.strip()]
+            others = above + [_value(other) for other in words if other is not word]
+            exact = int(word) == len(below) and (len(words) == 1 or _NUMBER.match(below[0].strip()))
+            if len(below) >= _FEWEST_COUNTED and (exact or (len(words) == 1 and _is_no_height(word, below[:_SAMPLE]))):
+                return Counted(int(word), place + 1, others[0] if len(others) == 1 else None)
+        above += map(_value, words)
+    return None
+
+
+def _value(word: str) -> float:
+    return number_of(word.replace(",", "."))
+
+
+def _is_no_height(word: str, below: list[str]) -> bool:
+    """Whether a whole number stands above rows of two numbers, or of decimals that all lie far off it."""
+    if int(word) < _FEWEST_COUNTED:
+        return False
+    if all(_is_numbers(line) and not _NUMBER.match(line.strip()) for line in below):
+        return True
+    heights = [_value(line.strip()) for line in below if _NUMBER.match(line.strip())]
+    decimals = sum("." in line or "," in line for line in below)
+    if len(heights) < len(below) or decimals < 0.9 * len(below):
+        return False
+    return min(abs(int(word) - height) for height in heights) > 10.0 * (max(heights) - min(heights))
 
 
 def _parse(body: list[str], delimiter: str | None, comma: bool, width: int, where: str, first: int) -> np.ndarray:
@@ -159,7 +232,7 @@ def _row(line: str, delimiter: str | None, width: int, where: str) -> list[float
         is_height = place > 0 or width == 1
         missing = is_height and (not cell or (_ABSENT.match(cell) and "inf" not in cell.lower()))
         try:
-            values.append(math.nan if missing else float(cell))
+            values.append(math.nan if missing else number_of(cell))
         except ValueError:
             raise InputError("not a number", where=where, value=cell) from None
         if not missing and not math.isfinite(values[-1]):

@@ -7,7 +7,7 @@ import numpy as np
 from profiles.errors import InputError
 from profiles.profile import Profile
 from profiles.readers.base import Source, checked_count, make_profile
-from profiles.units import known_length, metres
+from profiles.units import known_length, metres, number_of
 
 
 class PrfReader:
@@ -43,10 +43,10 @@ class PrfReader:
         if len(parts) == 3:
             raise InputError("cut off: the heights do not end with EOR", where=where)
         try:
-            count = round(float(lines["CZ"][2]))
-            scale = float(lines["CZ"][4]) * metres(lines["CZ"][3], f"{where}: CZ")
-            spacing = float(spacing_line[2]) * float(lines["CX"][4]) * metres(lines["CX"][3], f"{where}: CX")
-            heights = np.array([float(words[0]) for words in parts[2]])
+            count = round(number_of(lines["CZ"][2]))
+            scale = number_of(lines["CZ"][4]) * metres(lines["CZ"][3], f"{where}: CZ")
+            spacing = number_of(spacing_line[2]) * number_of(lines["CX"][4]) * metres(lines["CX"][3], f"{where}: CX")
+            heights = np.array([number_of(words[0]) for words in parts[2]])
         except (ValueError, OverflowError) as error:
             if isinstance(error, InputError):
                 raise
@@ -55,6 +55,6 @@ class PrfReader:
             raise InputError(f"the header declares {count} points", where=where, value=heights.size)
         origin: dict[str, object] = {"format": self.format}
         match lines.get("STYLUS_RADIUS"):
-            case [_, number, unit, *_] if known_length(f"{number} {unit}"):
-                origin["tip_radius"] = known_length(f"{number} {unit}")
+            case [_, digits, unit, *_] if known_length(f"{digits} {unit}"):
+                origin["tip_radius"] = known_length(f"{digits} {unit}")
         return make_profile(source, heights * scale, spacing, origin)

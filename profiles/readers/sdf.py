@@ -8,7 +8,7 @@ import numpy as np
 
 from profiles.errors import InputError
 from profiles.profile import Profile
-from profiles.readers.base import Source, foreign_parser, make_profile
+from profiles.readers.base import HoldsMap, Source, foreign_parser, make_profile
 
 _MAGICS = (b"aBCR-1.0", b"bBCR-1.0", b"aISO-1.0", b"bISO-1.0", b"aISO-2.0", b"bISO-2.0")
 _NPL = b"aNPL-V1.0"
@@ -39,11 +39,7 @@ class SdfReader:
             spacing = float(content.header.x_scale)
             maker = str(content.header.manufacturer_id).strip("\x00 ")
         if heights.ndim == 2 and heights.shape[0] != 1:
-            raise InputError(
-                "holds an areal map, not a profile; cut a trace from it first",
-                where=source.where,
-                value=heights.shape,
-            )
+            raise HoldsMap(source.where, heights.shape)
         z = heights.ravel()
         if z.size < 3:
             raise InputError("a profile needs at least three heights", where=source.where, value=z.size)

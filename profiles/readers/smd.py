@@ -8,7 +8,7 @@ from profiles.errors import InputError
 from profiles.profile import Profile
 from profiles.readers.base import Source, checked_count, make_profile
 from profiles.readers.numbers import table
-from profiles.units import metres
+from profiles.units import metres, number_of
 
 
 class SmdReader:
@@ -40,7 +40,7 @@ class SmdReader:
         if axes["CX"][1] != "I":
             raise InputError("only equally spaced profiles (I) are read", where=f"{where}: CX", value=axes["CX"][1])
         points, _, scale, _ = _axis(axes.get("CZ"), 5, where)
-        heights = table(records[2].replace("\x00", ""), f"{where}: heights").columns
+        heights = table(records[2].replace("\x00", ""), f"{where}: heights").alone(where).columns
         if heights.shape[0] != 1 or heights.shape[1] != count or points != count:
             raise InputError(f"the header declares {count} and {points} points", where=where, value=heights.shape[1])
         checked_count(count, heights.shape[1], where)
@@ -54,8 +54,8 @@ def _axis(words: list[str] | None, least: int, where: str) -> tuple[int, str, fl
     if words is None or len(words) < least:
         raise InputError("the axis line is missing or cut off", where=where, value=words)
     try:
-        count, scale = int(words[2]), float(words[4])
-        step = float(words[6]) if len(words) > 6 else math.nan
+        count, scale = int(words[2]), number_of(words[4])
+        step = number_of(words[6]) if len(words) > 6 else math.nan
     except ValueError:
         raise InputError("not a number in the axis line", where=f"{where}: {words[0]}", value=" ".join(words)) from None
     return count, words[3], scale * metres(words[3], f"{where}: {words[0]}"), step

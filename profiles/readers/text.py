@@ -9,10 +9,11 @@ import numpy as np
 
 from profiles.errors import InputError
 from profiles.profile import Profile
-from profiles.readers.base import Source, bridged, equal_spacing, make_profile
-from profiles.readers.numbers import Table, decoded, split, table
+from profiles.readers.base import Source, bridged, make_profile
+from profiles.readers.numbers import Counted, Table, decoded, split, table
 from profiles.readers.plausible import Units, doubt, inferred_note, inferred_units
-from profiles.units import METRES, known_unit, length, metres
+from profiles.readers.positions import RESAMPLED, Sampled, sampled
+from profiles.units import METRES, known_unit, length, metres, number_of
 
 _LAST_WORD = re.compile(r"([\[(/_ ])\s*([^\s\[\]()/_]+)\s*[\])]?\s*\Z")
 _MARKS = {"a": "[(", "in": "[(/", "m": "[(/_"}
@@ -21,6 +22,13 @@ _SETTING = re.compile(r"\s*[#%;*/]*\s*([^:=]{1,60}?)\s*[:=]\s*(.*?)\s*\Z")
 _STEP_NAMES = ("spacing", "step", "dx", "increment", "sampling interval", "point distance")
 _UNIT_NAMES = ("unit", "units", "z unit", "height unit")
 _POSITION_UNIT_NAMES = ("x unit", "position unit", *_UNIT_NAMES)
+_COUNT_NAMES = ("points", "number of points", "count", "samples", "data points")
+_RESULT = re.compile(
+    r"\W*([PRW][A-Za-z]\w{0,4})\W*?(?:[\[(]\s*([^\])]*?)\s*[\])])?"
+    r"[\s,;:=\"]+([-+]?\d[\d.,]*)[\"\s,;]*(\S*)\s*\Z"
+)
+_HEIGHTS_STATED = "aqztpv"
+"""Second letters of the parameters that are heights: without a unit they have the unit of the heights."""
 
 
 class TextReader:
@@ -30,7 +38,9 @@ class TextReader:
     columns. Units come from the caller, else from the header (``x_mm``, ``[mm]``, ``z (um)``,
     ``unit: um``), else, one or both, from the pair of units that is clearly the most plausible; the profile's
     ``steps`` and ``origin`` say when they were inferred, and when those of the heading are not plausible.
-    Positions must increase by equal steps, up to their rounding. A height that is empty or reads ``NaN`` is masked.
+    Positions that fall are turned, unequal ones resampled. A height that is empty or reads ``NaN`` is masked. A
+    count of the heights in the first lines of numbers is none of them: with a length beside it, it gives the step.
+    Results below the numbers go to ``origin["stated"]``.
 
     Checked against the nine text traces of public repositories in the test data and constructed files.
     """
@@ -62,48 +72,137 @@ def read_table(
         raise InputError("a profile needs at least three heights", where=source.where, value=columns.shape[1])
     origin = {"format": TextReader.format, **settings} if origin is None else dict(origin)
     origin |= _overruled(source, content, settings)
+    notes = (*notes, *_count_notes(content, settings, origin))
     written = source.unit or _header_units(content, settings, source.where)
-    if columns.shape[0] == 1:
-        step = _header_spacing(settings, source.where) or source.spacing
-        if step is None:
-            raise InputError(
-                "one column of heights needs its step: in a line 'spacing: 0.5 um', or as spacing '0.5 um'",
-                where=source.where,
-            )
-        if written[1] is None:
-            raise InputError(
-                "the unit of the heights is not in the file: put it in a line 'unit: um', or give it as unit 'um'",
-                where=source.where,
-            )
-        heights, present = columns[0] * metres(written[1], source.where), np.isfinite(columns[0])
-        return make_profile(source, heights, step, origin, steps=notes, present=present)
-    position, present = columns[0], np.isfinite(columns[1])
-    heights = bridged(columns[1], present, source.where)
-    own, unit = _own_step(source, position, content.quantum, written[0])
-    known = unit, written[1]
-    named = inferred_units(own, heights, source.where, known)
-    origin["units"] = f"position {named[0]}, height {named[1]}"
-    if named != known:
-        note = inferred_note(known, named)
-        origin["units_inferred"] = note
-        notes = (*notes, f"units {note.partition('; ')[2]}")
-    heights, step = heights * metres(named[1], source.where), own * metres(named[0], source.where)
-    strange = doubt(source.spacing or step, heights) if source.unit is None and named == known else None
-    if strange:
+    read = _read_heights if columns.shape[0] == 1 else _read_pairs
+    found, units, more = read(source, content, settings, written, origin)
+    notes = (*notes, *found.notes, *more, *_results(content, metres(units[1]), origin))
+    heights, step = found.heights * metres(units[1]), found.step * metres(units[0])
+    strange = doubt(source.spacing or step, heights) if source.unit is None and units == written else None
+    if strange and columns.shape[0] == 2:
         origin["units_doubtful"] = f"{origin['units']} by the heading: {strange}, unlike a measured trace"
-    return make_profile(source, heights, step, origin, steps=notes, present=present)
+    return make_profile(source, heights, step, origin, steps=notes, present=found.present)
 
 
-def _own_step(source: Source, position: np.ndarray, quantum: float, unit: str | None) -> tuple[float, str | None]:
-    """Step and unit of the column of positions; those of the caller where the column has no equal step or no unit."""
+Read = tuple[Sampled, tuple[str, str], tuple[str, ...]]
+"""Heights and step as written, their units of position and height, and further notes."""
+
+
+def _read_heights(
+    source: Source, content: Table, settings: dict[str, str], written: Units, origin: dict[str, object]
+) -> Read:
+    """One column of heights, with the step of a setting, of the caller, or of a length over a count."""
+    heights, present = content.columns[0], np.isfinite(content.columns[0])
+    step = _header_spacing(settings, source.where)
+    if step is None and content.counted and content.counted.length and (written[0] or source.spacing is None):
+        own = content.counted.length / content.counted.count
+        units = inferred_units(own, bridged(heights, present, source.where), source.where, written)
+        said = f"step {own:.6g} {units[0]}: the length {content.counted.length:g} over the count in"
+        if units != written:
+            origin["units_inferred"] = inferred_note(written, units)
+        return Sampled(heights, present, own), units, (f"{said} line {content.counted.line}",)
+    step = step or source.spacing
+    if step is None:
+        raise InputError(
+            "one column of heights needs its step: in a line 'spacing: 0.5 um', or as spacing '0.5 um'",
+            where=source.where,
+        )
+    if written[1] is None:
+        raise InputError(
+            "the unit of the heights is not in the file: put it in a line 'unit: um', or give it as unit 'um'",
+            where=source.where,
+        )
+    return Sampled(heights, present, step), ("m", written[1]), ()
+
+
+def _read_pairs(
+    source: Source, content: Table, settings: dict[str, str], written: Units, origin: dict[str, object]
+) -> Read:
+    """Positions and heights; units that the file does not name are inferred."""
+    position, present = content.columns[0], np.isfinite(content.columns[1])
+    found, unit = _own_steps(source, position, content.columns[1], present, content.quantum, written[0], origin)
+    known = unit, written[1]
+    units = inferred_units(found.step, bridged(found.heights, found.present, source.where), source.where, known)
+    origin["units"] = f"position {units[0]}, height {units[1]}"
+    if units == known:
+        return found, units, ()
+    note = inferred_note(known, units)
+    origin["units_inferred"] = note
+    return found, units, (f"units {note.partition('; ')[2]}",)
+
+
+def _own_steps(
+    source: Source,
+    position: np.ndarray,
+    heights: np.ndarray,
+    present: np.ndarray,
+    quantum: float,
+    unit: str | None,
+    origin: dict[str, object],
+) -> tuple[Sampled, str | None]:
+    """The trace at equal steps and their unit; at the caller's step where the positions have no equal one or unit."""
     told = source.spacing
+    if told is None:
+        return sampled(position, heights, present, quantum, source.where), unit
+    as_told = told / METRES["um"]
     try:
-        own = equal_spacing(position, quantum, source.where)
-    except InputError:
-        if told is None:
-            raise
-        own, unit = told, None
-    return (own, unit) if told is None or unit is not None else (told / METRES["um"], "um")
+        found = sampled(position, heights, present, quantum, source.where)
+    except InputError as error:
+        origin["spacing_overruled"] = f"{error.rule.partition(';')[0]}, taken as rising by {as_told:.6g} um as told"
+        return Sampled(heights, present, as_told), "um"
+    if any(note.startswith(RESAMPLED) for note in found.notes):
+        said = found.notes[-1].partition("as its ")[2]
+        origin["spacing_overruled"] = (
+            f"the positions rise, but their {said}: taken as equal steps of {as_told:.6g} um as told; "
+            "without a step that is told they are resampled"
+        )
+        return Sampled(heights, present, as_told), "um"
+    if unit is not None:
+        return found, unit
+    ratios = [told / (found.step * size) for size in METRES.values()]
+    if found.step != 1.0 and not any(abs(ratio - 1.0) < 1e-3 for ratio in ratios):
+        origin["spacing_overruled"] = (
+            f"the positions rise by {found.step:.6g} of a unit that is not named, taken as {as_told:.6g} um as told"
+        )
+    return Sampled(found.heights, found.present, as_told, found.notes), "um"
+
+
+def _count_notes(content: Table, settings: dict[str, str], origin: dict[str, object]) -> tuple[str, ...]:
+    """A note on a count above the heights; where it is another than their number, ``origin`` says so."""
+    counted = content.counted
+    if counted is None:
+        stated = next((settings[name] for name in _COUNT_NAMES if settings.get(name, "").isdecimal()), None)
+        counted = Counted(int(stated), 0) if stated else None
+    if counted is None:
+        return ()
+    heights = content.columns.shape[1]
+    where = f"line {counted.line}" if counted.line else "the header"
+    if counted.count != heights:
+        why = "cut short?" if counted.count > heights else "are others among them?"
+        origin["count_differs"] = f"{where} counts {counted.count} heights, {heights} follow: {why}"
+    return (f"{where} counts {counted.count} heights, read as no height",) if counted.line else ()
+
+
+def _results(content: Table, unit: float, origin: dict[str, object]) -> tuple[str, ...]:
+    """A note on the lines below the heights; the results of the instrument among them go to ``origin``."""
+    if not content.footer:
+        return ()
+    stated = {}
+    for match in filter(None, map(_RESULT.match, content.footer)):
+        name, bracketed, digits, behind = match.groups()
+        named = known_unit(bracketed or behind or "")
+        try:
+            value = number_of(digits if content.delimiter == "," else digits.replace(",", "."))
+        except ValueError:
+            continue
+        size = metres(named) if named else unit if name[1:] and name[1:] in _HEIGHTS_STATED else 1.0
+        stated[name] = value * size
+    if stated:
+        origin |= {"stated": stated, "stated_filtered": True}
+    kept = f": {', '.join(stated)} kept as stated by the instrument" if stated else ""
+    others = len(content.footer) - len(stated)
+    left = f"; {others} left out" if stated and others else "" if stated else " left out"
+    return (f"{len(content.footer)} lines below the heights, from line {content.footer_line} on{kept}{left}",)
 
 
 def header_settings(header: tuple[str, ...]) -> dict[str, str]:

@@ -9,7 +9,8 @@ import numpy as np
 from profiles.errors import InputError
 from profiles.profile import Profile
 from profiles.readers.archive import check_archive, members
-from profiles.readers.base import Source, equal_spacing, foreign_parser, make_profile
+from profiles.readers.base import HoldsMap, Source, foreign_parser, make_profile
+from profiles.readers.positions import sampled
 
 
 class X3pReader:
@@ -31,9 +32,11 @@ class X3pReader:
 
         with foreign_parser("x3p", source.where):
             content = x3pio.read(io.BytesIO(source.data))
+            if isinstance(content, x3pio.Surface):
+                raise HoldsMap(source.where, np.asarray(content.layers[0].z).shape)
             if not isinstance(content, x3pio.Profile):
                 kind = type(content).__name__.lower()
-                raise InputError(f"holds a {kind}, not a profile; cut a trace from it first", where=source.where)
+                raise InputError(f"holds a {kind}, not a profile: export a profile or a height map", where=source.where)
             layers = content.layers
             x = np.asarray(layers[0].x, dtype=float).ravel()
             z = np.asarray(layers[0].z, dtype=float).ravel()
@@ -41,7 +44,10 @@ class X3pReader:
             increment = content.header.x.increment
         if z.size < 3:
             raise InputError("a profile needs at least three heights", where=source.where, value=z.size)
-        spacing = increment if regular and increment else equal_spacing(x, 0.0, source.where)
         steps = (f"layer 1 of {len(layers)} read",) if len(layers) > 1 else ()
         present = np.isfinite(z)
-        return make_profile(source, z, float(spacing), {"format": self.format}, present=present, steps=steps)
+        step = float(increment or 0.0)
+        if not (regular and step):
+            found = sampled(x, z, present, 0.0, source.where)
+            z, present, step, steps = found.heights, found.present, found.step, (*steps, *found.notes)
+        return make_profile(source, z, step, {"format": self.format}, present=present, steps=steps)

@@ -63,7 +63,7 @@ def test_version_is_printed(capsys):
 
 
 def lines_of(example):
-    return [shlex.split(line) for line in example.split("&&")]
+    return [shlex.split(line) for line in example.splitlines()]
 
 
 LONG = ("condense",)

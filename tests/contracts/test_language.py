@@ -1,4 +1,4 @@
-"""Docstrings speak the field's language: the private words of this code are counted, and may only become fewer."""
+"""Docstrings name things by their nouns: pronouns and relatives in place of a noun are counted, and may only fall."""
 
 import ast
 import re
@@ -7,16 +7,53 @@ from pathlib import Path
 import pytest
 
 import mixedlub
+import profiles
+import roughness
 
 HOME = Path(mixedlub.__file__).parent
-DIALECT = (
-    *("told", "tells", "said", "asked", "foretell", "foretells", "wander", "wanders", "beside", "stands", "hang"),
-    *("hangs", "goes", "alike", "settled", "unnamed", "usual"),
+BESIDE = [Path(package.__path__[0]) for package in (profiles, roughness)]
+CHAINS = re.compile(
+    r"\b(that of|those of|those that|what|whose|of which|its own|where there|where it|none where|as it|is no"
+    r"|the one)\b",
+    re.IGNORECASE,
 )
-"""Words used in place of a standard term: residual, drift, prediction, set point, discrepancy, typical."""
-FINISHED = 4.0
-"""Most such words per 1,000 words of docstring, in a room that has been rewritten: the level of the best rooms."""
-UNFINISHED: dict[str, float] = {}
+"""Words that stand for a noun which the reader must find."""
+PACKAGE = 4.0
+"""Most such words per 1,000 words of docstring over all packages; five well-kept scientific packages have 0.3."""
+ROOM = 6.0
+"""The same for a room that has been rewritten."""
+UNFINISHED: dict[str, float] = {
+    ".": 30.5,
+    "api": 20.6,
+    "base_model": 8.5,
+    "case": 15.2,
+    "chain": 15.7,
+    "commands": 13.4,
+    "data_checks": 13.0,
+    "diagnosis": 21.9,
+    "diagnosis/assessment": 9.9,
+    "diagnosis/discrepancy": 14.4,
+    "diagnosis/report": 15.6,
+    "diagnosis/search": 11.6,
+    "diagnosis/settings": 7.0,
+    "efficiency": 15.3,
+    "ehl": 12.9,
+    "evaluate": 17.2,
+    "friction": 7.7,
+    "gear": 7.6,
+    "importers": 15.7,
+    "kinds": 12.5,
+    "profiles": 14.1,
+    "recording": 13.4,
+    "report": 12.2,
+    "rig": 20.4,
+    "roughness": 12.5,
+    "running": 20.4,
+    "schema": 18.5,
+    "solutions": 16.8,
+    "study": 16.6,
+    "validation": 11.2,
+}
 """Rooms that are not rewritten yet, with their present figure: lower it with every change, never raise it."""
 
 
@@ -33,40 +70,47 @@ def docstrings(path: Path) -> list[str]:
     ]
 
 
+PATHS = sorted(path for home in (HOME, *BESIDE) for path in home.rglob("*.py"))
+
+
 def room_of(path: Path) -> str:
     """The room of a file; the diagnosis is counted by its rooms."""
-    parts = path.relative_to(HOME).parts
+    home = next(home for home in (HOME, *BESIDE) if path.is_relative_to(home))
+    if home in BESIDE:
+        return home.name
+    parts = path.relative_to(home).parts
     folders = parts[:2] if parts[0] == "diagnosis" and len(parts) > 2 else parts[:1]
     return "/".join(folders) if len(parts) > 1 else "."
 
 
-def share(room: str) -> float:
-    """Words of the dialect per 1,000 words of docstring."""
-    words = [
-        word
-        for path in sorted(HOME.rglob("*.py"))
-        if room_of(path) == room
-        for text in docstrings(path)
-        for word in re.findall(r"[a-z]+", text.lower())
-    ]
-    return 1000.0 * sum(word in DIALECT for word in words) / max(len(words), 1)
+def rate(paths: list[Path]) -> float:
+    """Pronouns and relatives in place of a noun per 1,000 words of docstring."""
+    texts = [text for path in paths for text in docstrings(path)]
+    words = sum(len(text.split()) for text in texts)
+    return 1000.0 * sum(len(CHAINS.findall(text)) for text in texts) / max(words, 1)
 
 
-ROOMS = sorted({room_of(path) for path in HOME.rglob("*.py")})
+def of_room(room: str) -> float:
+    return rate([path for path in PATHS if room_of(path) == room])
 
 
-def test_a_word_of_the_dialect_is_counted(tmp_path: Path) -> None:
+ROOMS = sorted({room_of(path) for path in PATHS})
+
+
+def test_a_pronoun_in_place_of_a_noun_is_counted(tmp_path: Path) -> None:
     path = tmp_path / "one.py"
-    path.write_text('LIMIT = 3\n"""It is told."""\n\n\ndef f():\n    """What goes.\n\n    >>> "told"\n    1\n    """\n')
-    assert re.findall(r"told|goes", " ".join(docstrings(path))) == ["told", "goes"]
+    path.write_text(
+        'LIMIT = 3\n"""That of a film."""\n\n\ndef f():\n    """What it is.\n\n    >>> "what"\n    1\n    """\n'
+    )
+    assert rate([path]) == pytest.approx(1000.0 * 2 / 7)
 
 
 @pytest.mark.parametrize("room", ROOMS)
-def test_docstrings_use_the_terms_of_the_field(room: str) -> None:
-    assert share(room) <= UNFINISHED.get(room, FINISHED)
+def test_docstrings_name_things_by_their_nouns(room: str) -> None:
+    assert of_room(room) <= UNFINISHED.get(room, ROOM)
 
 
 def test_limits_are_of_rooms_that_exist_and_are_not_slack() -> None:
     """A room that has become better keeps its limit near its figure."""
     assert UNFINISHED.keys() <= set(ROOMS)
-    assert [room for room, limit in UNFINISHED.items() if share(room) < limit - 1.0 or limit <= FINISHED] == []
+    assert [room for room, limit in UNFINISHED.items() if of_room(room) < limit - 1.0 or limit <= ROOM] == []

@@ -12,7 +12,20 @@ import mixedlub
 HOME = Path(mixedlub.__file__).parent
 ROOMS = {
     "": (
-        *("running", "schema", "chain", "laws", "effects", "friction", "parts", "gear", "rig", "ehl", "kinds"),
+        *(
+            "running",
+            "schema",
+            "chain",
+            "laws",
+            "base_model",
+            "effects",
+            "friction",
+            "parts",
+            "gear",
+            "rig",
+            "ehl",
+            "kinds",
+        ),
         *("solutions", "case", "recording", "evaluate", "data_checks", "study", "efficiency", "report", "diagnosis"),
         *("importers", "api", "validation", "commands", "cli", "__main__"),
     ),

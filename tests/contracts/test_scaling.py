@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 import mixedlub.laws
+from mixedlub.base_model import chains as base_models
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.quantities import GLOSSARY
-from mixedlub.laws import base_models
 from mixedlub.schema.units import dimension
 from roughness import mccool
 from tests.contracts.rigs import EFFECTS, RIGS, moved, states

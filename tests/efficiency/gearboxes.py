@@ -26,6 +26,7 @@ PARTS: dict[str, Any] = {
             "bore_mm": 35,
             "outside_diameter_mm": 72,
             "static_rating_N": 15300,
+            "count": 2,
         },
         "back": {
             "law": "palmgren",
@@ -33,6 +34,7 @@ PARTS: dict[str, Any] = {
             "shaft": "gear",
             "bore_mm": 35,
             "outside_diameter_mm": 72,
+            "count": 2,
         },
     },
     "seals": {"front": {"law": "iso_tr_14179_2", "shaft": "pinion", "diameter_mm": 35}},
@@ -48,6 +50,10 @@ PARTS: dict[str, Any] = {
     "jets": {"in": {"law": "ariura", "wheel": "pinion", "oil_flow_l_min": 2.5}},
     "others": {"pump": {"law": "own_torque", "shaft": "gear", "coefficients": {"constant": 0.2}}},
 }
+
+
+AFTER: dict[str, Any] = {"bearings": {"after": PARTS["bearings"]["back"] | {"shaft": "pinion", "axial_share": 0.5}}}
+"""Bearings of the driving wheel of a stage behind another one with bearings."""
 
 
 def gearbox_file(*stages: dict[str, Any], **tables: Any) -> dict[str, Any]:

@@ -12,7 +12,7 @@ import pytest
 
 from mixedlub.cli import main
 from mixedlub.parts import catalogue, series
-from tests.efficiency.gearboxes import PARTS, STAGE, gearbox_file, written
+from tests.efficiency.gearboxes import AFTER, PARTS, STAGE, gearbox_file, written
 
 TABLES = {"map", "loss_map", "losses", "breakdown", "stages", "mesh_cycle", "tooth_pair"}
 DUTY = {"torque_Nm": [150.0, 0.0], "speed_rpm": [1000.0, 3000.0], "duration_h": [10.0, 5.0]}
@@ -21,7 +21,7 @@ DUTY = {"torque_Nm": [150.0, 0.0], "speed_rpm": [1000.0, 3000.0], "duration_h": 
 @pytest.fixture(scope="module")
 def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("command")
-    path = written(folder, gearbox_file(STAGE | PARTS, STAGE, duty=DUTY))
+    path = written(folder, gearbox_file(STAGE | PARTS, STAGE | AFTER, duty=DUTY))
     assert main(["efficiency", str(path), "--out", str(folder / "out")]) == 0
     return folder / "out"
 
@@ -38,6 +38,17 @@ def test_columns_have_their_unit(out: Path) -> None:
     for path in out.glob("*.csv"):
         for name in pd.read_csv(path).columns:
             assert name in bare or name.endswith(("_Nm", "_rpm", "_W", "_percent", "_deg", "_kWh", "_h", "_N")), name
+
+
+def test_a_mesh_that_does_not_resist_rolling_is_not_shown_with_a_loss_of_zero(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for effects, shown in (({}, False), (STAGE["effects"], True)):
+        path = written(tmp_path, gearbox_file(STAGE | PARTS | {"effects": effects}))
+        assert main(["efficiency", str(path), "--out", str(tmp_path / f"out_{shown}")]) == 0
+        assert ("rolling" in capsys.readouterr().out) == shown
+        for name in ("breakdown", "mesh_cycle"):
+            assert ("rolling" in (tmp_path / f"out_{shown}" / "figures" / f"{name}.svg").read_text()) == shown
 
 
 def test_losses_written_add_up(out: Path) -> None:
@@ -131,7 +142,11 @@ FRONT = "stages.a.bearings.front"
             f"{FRONT}.law: 'skf_deepgroove': no such bearing law; nearest known: 'skf_d",
         ),
         (f"{FRONT}.static_rating_N", None, f"{FRONT}: skf_deep_groove needs static_rating_N"),
-        (f"{FRONT}.series", None, "needs rolling, rolling_axial, sliding, sliding_axial"),
+        (
+            f"{FRONT}.series",
+            None,
+            "needs rolling, rolling_axial, sliding, sliding_axial: give `series` (2, 3, 42, 43 and 16 more)",
+        ),
         (f"{FRONT}.coefficients", {"rollin": 1e-7}, "'rollin': no such coefficient of skf_deep_groove; nearest known"),
         (f"{FRONT}.outside_diameter_mm", 20, "outside_diameter_mm 20 must be above bore_mm 35"),
         ("stages.a.bearings.back.static_rating_N", 1e4, "palmgren does not read it; leave it out"),

@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 import mixedlub as ml
+from mixedlub.chain.ranges import GRADES, VALID
 from mixedlub.efficiency import Gearbox, Losses, read_gearbox
 from mixedlub.efficiency.gearbox import EXCEEDED, MESH
 from mixedlub.efficiency.mesh_cycle import mesh_cycle, mesh_cycles
 from mixedlub.efficiency.meshes import MOST_SOLVED, load_shares
 from mixedlub.efficiency.table import breakdown_table, duty_summary, duty_table, loss_map, map_table, part_table
 from mixedlub.study import read_study, run_study
-from mixedlub.study.columns import VALID
-from tests.efficiency.gearboxes import PARTS, STAGE, gearbox, gearbox_file, written
+from tests.efficiency.gearboxes import AFTER, PARTS, STAGE, gearbox, gearbox_file, written
 
 SECOND = STAGE | {"gears": {"preset": "h501"}, "lubricant": {"oil": "pao40"}, "oil_temperature_C": 60.0}
 ELASTIC = {"preset": "fzg_c", "load_sharing": {"model": "ldp", "tip_relief_um": [20, 20], "relief_length_mm": [2, 2]}}
@@ -34,7 +34,7 @@ def box(folder: Path) -> Gearbox:
 
 @pytest.fixture(scope="module")
 def two(folder: Path) -> Gearbox:
-    return gearbox(folder, STAGE | PARTS, SECOND)
+    return gearbox(folder, STAGE | PARTS, SECOND | AFTER)
 
 
 @pytest.fixture(scope="module")
@@ -124,13 +124,20 @@ class TestValidity:
 
     def test_it_is_that_of_a_study(self, folder: Path) -> None:
         rough = gearbox(folder, STAGE | {"surfaces": {"pinion": self.ROUGH, "gear": self.ROUGH}})
-        assert all("asperities_overloaded" in words for words in rough.map().validity)
+        found = rough.map()
+        assert all("asperities_overloaded" in w for w, t in zip(found.validity, found.torque, strict=True) if t > 0.0)
+
+    def test_without_torque_nothing_of_the_contact_is_judged(self, folder: Path) -> None:
+        rough = gearbox(folder, STAGE | {"surfaces": {"pinion": self.ROUGH, "gear": self.ROUGH}})
+        assert rough.losses(np.array([0.0]), np.array([300.0])).validity == (VALID,)
 
     def test_of_several_stages_each_word_names_its_stage(self, folder: Path) -> None:
         surfaces = {"pinion": self.ROUGH, "gear": self.ROUGH}
         box = gearbox(folder, STAGE | {"surfaces": surfaces}, SECOND | {"surfaces": surfaces})
         for words in box.map().validity:
-            assert all(word.startswith(("a:", "b:")) or word == EXCEEDED for word in words.split("; "))
+            grade, *codes = words.split("; ")
+            assert grade in (*GRADES, EXCEEDED)
+            assert all(word.startswith(("a:", "b:")) or word == EXCEEDED for word in codes)
 
     def test_flags_of_asperities_are_left_out_where_friction_does_not_read_them(self, folder: Path) -> None:
         surfaces = {"pinion": self.ROUGH, "gear": self.ROUGH}
@@ -147,7 +154,7 @@ class TestSeries:
     def test_a_stage_takes_in_what_the_one_before_leaves(self, folder: Path, box: Gearbox, two: Gearbox) -> None:
         torque, speed = np.array([150.0]), np.array([200.0])
         first, both = box.losses(torque, speed), two.losses(torque, speed)
-        alone = gearbox(folder, SECOND)
+        alone = gearbox(folder, SECOND | AFTER)
         turning = speed / 1.5
         second = alone.losses(first.output_power / turning, turning)
         assert both.total(stage="a") == pytest.approx(first.total(), rel=1e-12)
@@ -155,7 +162,7 @@ class TestSeries:
         assert both.output_power == pytest.approx(second.output_power, rel=1e-12)
 
     def test_each_stage_has_its_own_oil(self, folder: Path, two: Gearbox) -> None:
-        warmer = gearbox(folder, STAGE | PARTS, SECOND | {"oil_temperature_C": 90.0})
+        warmer = gearbox(folder, STAGE | PARTS, SECOND | AFTER | {"oil_temperature_C": 90.0})
         found, other = two.at_cycle(), warmer.at_cycle()
         assert other.total(stage="a") == pytest.approx(found.total(stage="a"), rel=1e-12)
         assert other.total(stage="b", origins=("rolling",)) < 0.8 * found.total(stage="b", origins=("rolling",))

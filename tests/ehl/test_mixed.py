@@ -7,12 +7,12 @@ import pytest
 import xarray
 from scipy.integrate import quad
 
+from mixedlub.base_model.balanced import balanced_film
 from mixedlub.cli import main
 from mixedlub.ehl import contacts, example_oil
 from mixedlub.ehl.file import read_problem
 from mixedlub.ehl.mixed import Asperities, laws, solve_mixed, yielding
 from mixedlub.ehl.solve import CONVERGED, Way, solved
-from mixedlub.laws.balanced import balanced_film
 from mixedlub.laws.contact import mean_hertz_pressure
 from profiles.errors import InputError
 

@@ -10,6 +10,9 @@ from mixedlub.chain.slots import VISCOSITY
 from mixedlub.cli import main
 from mixedlub.ehl import EXAMPLE, example_oil, read_oil, solve
 from mixedlub.ehl.file import read_problem
+from mixedlub.ehl.oil.declared import DENSITY as DENSITIES
+from mixedlub.ehl.oil.declared import SHEAR as SHEAR_LAWS
+from mixedlub.ehl.oil.declared import VISCOSITY as VISCOSITIES
 from mixedlub.laws.oil import roelands_viscosity
 from mixedlub.rig.build import lubricant
 from mixedlub.schema.findings import collected
@@ -252,3 +255,10 @@ def test_only_a_constant_eyring_stress_is_one(law, tmp_path):
     assert read_oil(written(tmp_path, (SHEAR, f"[shear]\n{SHEARS[law]}\n\n"))).eyring_stress == (
         pytest.approx(5e6) if 'law = "ree_eyring"' in SHEARS[law] else 0.0
     )
+
+
+@pytest.mark.parametrize("law", [law for laws in (VISCOSITIES, SHEAR_LAWS, DENSITIES) for law in laws.all.values()])
+def test_every_law_of_the_solver_names_its_equation_and_source(law):
+    assert law.equation
+    assert law.source
+    assert law.name in repr(law)

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mixedlub.evaluate import evaluate
+from mixedlub.evaluate import EVALUATIONS, evaluate
 from mixedlub.evaluate.frequency_response import Response, division, over_period
 from mixedlub.evaluate.mesh_force import cycle_pattern
 from mixedlub.gear import RigidSharing
@@ -120,6 +120,34 @@ def test_the_force_of_a_single_pair_turns_round_at_the_pitch_point():
     before, after = roll < pitch - 0.1, single & (roll > pitch + 0.1) & (roll < start + PITCH_ANGLE - 0.1)
     assert pattern.force[0, before] == pytest.approx(np.full(before.sum(), -load), rel=2e-2)
     assert pattern.force[0, after] == pytest.approx(np.full(after.sum(), load), rel=2e-2)
+
+
+def test_an_uncertain_roll_angle_at_the_pulse_is_in_the_deviation_of_the_mean(tmp_path):
+    """Turned by its standard deviation, the mean moves by what that adds to its deviation."""
+    tables, _ = bench.recorded(replace(RIG, turns=2), 1)
+
+    def mean_of(angle, sd):
+        recording = EVALUATIONS["off-line"].example["recordings"]["slow"] | {"roll_angle_at_pulse_deg": angle}
+        rows = found_of(tmp_path, tables, meters={"roll_angle_sd_deg": sd}, recordings={"slow": recording})
+        return (float(rows.tables["recordings"][f"mean_friction{end}"][0]) for end in ("", "_sd"))
+
+    mean, known = mean_of(10.324, 0.0)
+    moved, _ = mean_of(10.324 + 0.5, 0.0)
+    _, uncertain = mean_of(10.324, 0.5)
+    assert abs(moved / mean - 1.0) > 0.02
+    assert math.sqrt(uncertain**2 - known**2) == pytest.approx(abs(moved - mean), rel=0.2)
+
+
+def test_friction_that_drives_the_teeth_is_refused_with_the_sign_to_turn(tmp_path):
+    tables, _ = bench.recorded(replace(RIG, turns=2), 1)
+    column = "off_line_displacement_um"
+    turned = {
+        name: {**table, column: [-one for one in table[column]]} if column in table else table
+        for name, table in tables.items()
+    }
+    with pytest.raises(InputError, match=r"below zero.*turn the sign of off_line_displacement_um") as refused:
+        found_of(tmp_path, turned)
+    assert refused.value.where.endswith("recordings.slow")
 
 
 def without(tables, **changed):

@@ -191,6 +191,17 @@ class TestRefusals:
         with pytest.raises(InputError, match=rule):
             replace(HONG, **change)
 
+    @pytest.mark.parametrize("teeth", [(20, -61), (-61, 20)])
+    def test_a_ring_gear_is_not_computed_and_nothing_stands_for_it(self, teeth):
+        """By Ohlendorf the external pair loses (u + 1)/(u - 1) = 2.0 times as much at u = 3.05."""
+        with pytest.raises(InputError, match=r"internal gears .* about 2 times .*sun and planet") as refused:
+            GearPair(teeth, 3e-3, math.radians(20), 30e-3)
+        assert (refused.value.where, refused.value.value) == ("teeth", teeth)
+
+    def test_the_centre_distance_of_a_ring_gear_is_refused(self):
+        with pytest.raises(InputError, match="internal gears"):
+            GearPair((20, 61), 3e-3, math.radians(20), 30e-3, centre_distance=61.5e-3)
+
     @given(
         st.dictionaries(
             st.sampled_from(

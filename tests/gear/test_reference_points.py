@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from mixedlub.base_model.chains import GEAR_CONTACT
 from mixedlub.chain.model import Model
 from mixedlub.gear import GearPair, RigidSharing, at_roll_angle
 from mixedlub.gear.inputs import motion_inputs
-from mixedlub.laws.base_models import GEAR_CONTACT
 from mixedlub.laws.film import dowson_higginson
 from mixedlub.laws.shear import ree_eyring_secant
 

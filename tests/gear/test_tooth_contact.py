@@ -185,3 +185,23 @@ def test_wide_helical_gears_share_between_all_lines():
     found = tooth_contact(HELICAL, LdpSharing(), np.array([9000.0]))
     assert found.load_share.max() < 0.75
     assert math.isclose(found.pattern[0], 1.0)
+
+
+class TestDedendum:
+    """One dedendum of the rack, read by elastic teeth and by the standard's stiffness."""
+
+    def stiffness(self, tmp_path, capsys, text):
+        status, said = run(tmp_path, capsys, text, "--no-figures")
+        return said.err if status else pd.read_csv(tmp_path / "out" / "summary.csv").iloc[0].to_dict()
+
+    def test_either_table_states_it_for_both(self, tmp_path, capsys):
+        in_gears = FILE.replace("face_width", "dedendum = 1.4\nface_width")
+        found = [self.stiffness(tmp_path, capsys, text) for text in (in_gears, FILE + "[iso_6336]\ndedendum = 1.4\n")]
+        plain = self.stiffness(tmp_path, capsys, FILE)
+        assert found[0] == found[1]
+        softer = [name for name, value in plain.items() if "stiffness" in name and found[0][name] < 0.95 * value]
+        assert len(softer) >= 2
+
+    def test_two_that_differ_are_refused(self, tmp_path, capsys):
+        text = FILE.replace("face_width", "dedendum = 1.3\nface_width") + "[iso_6336]\ndedendum = 1.4\n"
+        assert "iso_6336.dedendum: 1.4: is not gears.dedendum = 1.3" in self.stiffness(tmp_path, capsys, text)

@@ -3,7 +3,6 @@
 import gzip
 import io
 
-import openpyxl
 import pytest
 
 from mixedlub.case.folder import read_case
@@ -14,23 +13,6 @@ from profiles.errors import InputError
 
 TABLE = "Temperature (degC),Viscosity (mPa.s)\n40,30.5\n60,12\n100,4.75\n"
 ROWS = [["Temperature (degC)", "Viscosity (mPa.s)"], [40, 30.5], [60, 12], [100, 4.75]]
-
-
-@pytest.fixture
-def book(tmp_path):
-    def write(name="t.xlsx", formats=None, **sheets):
-        made = openpyxl.Workbook()
-        made.remove(made.active)
-        for title, rows in sheets.items():
-            sheet = made.create_sheet(title)
-            for row in rows:
-                sheet.append(row)
-            for place, form in (formats or {}).items():
-                sheet[place].number_format = form
-        made.save(tmp_path / name)
-        return tmp_path / name
-
-    return write
 
 
 def viscosities(path, tmp_path, **told):

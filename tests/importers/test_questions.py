@@ -136,14 +136,13 @@ def test_a_disc_is_asked_whether_line_or_point(tmp_path):
     import_files([path], tmp_path / "line", kind="disc", contact={**contact, "width_mm": 6.0})
 
 
-@pytest.mark.parametrize(("cell", "rule"), [("abc", "must be a number"), ("inf", "finite")])
-def test_a_bad_cell_is_named_with_its_line(rig8, cell, rule):
-    rig8.write_text(RIG8.replace("0,0275;", f"{cell};"), encoding="utf-8")
+def test_a_bad_cell_is_named_with_its_line(rig8):
+    rig8.write_text(RIG8.replace("0,0275;", "abc;"), encoding="utf-8")
     columns = {"speed_rpm": "Pinion speed [1/min]", "oil_temperature_C": "Oil sump temp [°C]"}
     told = {f"import.columns.{k}": v for k, v in columns.items()}
-    with pytest.raises(InputError, match=rule) as caught:
+    with pytest.raises(InputError, match="must be a number") as caught:
         import_files([rig8], rig8.parent / "rig", kind="gear_pair", **told)
-    assert str(caught.value).startswith(f"rig8.csv: line 5, Power loss [kW]: {cell!r}: ")
+    assert str(caught.value).startswith("rig8.csv: line 5, Power loss [kW]: 'abc': ")
 
 
 def test_a_row_with_other_cells_is_named_with_its_line(rig8):

@@ -56,7 +56,7 @@ def test_what_is_imported_is_checked_and_diagnosable(rig, capsys):
 def test_a_value_that_a_case_cannot_have_is_named_where_it_stands(rig, tmp_path, capsys):
     rig(t_dot_csv=HEADER + ROWS.replace(",502,", ",-502,"))
     assert imported() == 2
-    assert "t.csv: line 4, speed_rpm: -502.0: speed_rpm must be above 0" in capsys.readouterr().err
+    assert "t.csv: line 4, speed_rpm: '-502': speed_rpm must be above 0" in capsys.readouterr().err
     assert not (tmp_path / "rig").exists()
 
 
@@ -103,7 +103,7 @@ def test_what_diagnose_would_refuse_is_said(rig, capsys):
 def test_a_place_in_the_programme_outside_it_is_refused_of_a_case_that_lacks_sections_too(rig, capsys):
     rig(t_dot_csv="sequence," + HEADER + "1.5,50,500,40,a,b,17\n0.5,50,600,40,a,b,18\n")
     assert main(["import", "t.csv", "--out", "rig", "--set", "kind=gear_pair"]) == 2
-    assert "t.csv: line 2, sequence: 1.5: sequence must lie between 0 and 1" in capsys.readouterr().err
+    assert "t.csv: line 2, sequence: '1.5': sequence must lie between 0 and 1" in capsys.readouterr().err
 
 
 def test_load_shares_come_with_the_case_from_beside_the_answers(rig, tmp_path):

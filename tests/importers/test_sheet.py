@@ -216,3 +216,16 @@ def test_headers_between_blanks_may_have_units_and_several_words(header, row):
 )
 def test_blanks_within_cells_part_nothing_where_a_mark_does(text):
     assert len(read_sheet(text, "t.txt").cells) == 3
+
+
+def test_a_quoted_cell_over_two_lines_is_kept_and_an_open_quote_is_refused():
+    rows = 'speed_rpm,surface,friction\n100,polished,0.05\n200,"ground\na",0.04\n300,honed,0.03\n'
+    assert read_sheet(rows, "rig.csv").cells["surface"] == ["polished", "ground a", "honed"]
+    with pytest.raises(InputError, match=r"line 3: .*a quoted cell must end in its line"):
+        read_sheet(rows.replace('a"', "a"), "rig.csv")
+
+
+def test_a_stroke_between_digits_is_no_number():
+    sheet = read_sheet("speed_rpm;load_N;friction\n100;20;0.05\n200;20;1_7.49\n300;20;0.03\n", "rig.csv")
+    assert not sheet.cells["friction"].numeric
+    assert np.isnan(sheet.cells["friction"].values[1])

@@ -62,7 +62,7 @@ def test_rows_without_load_have_no_coefficient_and_are_left_out(load):
 
 
 def test_loads_that_are_all_negative_are_refused():
-    with pytest.raises(InputError, match=r"line 2, Load \[N\]: -10.*load_N must be above 0"):
+    with pytest.raises(InputError, match=r"line 2, Load \[N\]: '-10'.*load_N must be above 0"):
         read("Time [s],Friction force [N],Load [N]", rows="0,1,-10\n1,1,-10\n")
 
 

@@ -36,11 +36,20 @@ def test_contact_of_the_nasa_rig_is_that_of_the_paper(rows, stated):
 @pytest.mark.literature(
     "Measurement and Modelling of Friction for Cylindrical Gears with Pitch Line Velocities up to 100 m/s"
 )
-def test_speed_lowers_friction_as_measured_when_the_oil_may_warm(rows):
-    """20 to 95 m/s, -28 %: within the 25 % band of the source's own model, and nearer than with cold oil."""
-    paper, base, heat = map(number, rows["A: mean friction, 20 to 95 m/s, geometry B, ground"])
-    assert heat == pytest.approx(paper, rel=0.25)
-    assert base < heat
+@pytest.mark.parametrize("stated", ["20 to 95 m/s, geometry B, ground", "ground to superfinished, geometry B"])
+def test_speed_and_finish_lower_friction_as_measured(rows, stated):
+    """-28 and -30 %: the base model within the 25 % band of the source's own model; heat adds to the fall."""
+    paper, base, heat = map(number, rows[f"A: mean friction, {stated}"])
+    assert base == pytest.approx(paper, rel=0.25)
+    assert heat < base
+
+
+@pytest.mark.literature(
+    "Measurement and Modelling of Friction for Cylindrical Gears with Pitch Line Velocities up to 100 m/s"
+)
+def test_oil_temperature_hardly_changes_friction_as_measured(rows):
+    """+1 % from 80 to 120 °C, in the base model with a viscosity under pressure that falls with temperature."""
+    assert abs(number(rows["A: mean friction, oil 80 to 120 °C, geometry A, 1900 N m, ground"][1]) - 1.0) < 5.0
 
 
 @pytest.mark.literature("Vaishya and Houser 1999, AGMA 99FTMS1, table 2")
@@ -93,9 +102,11 @@ def test_load_acts_by_no_more_than_the_sources_own_model_errs(rows, stated, mode
 
 
 @pytest.mark.literature("Rebbechi, Oswald and Townsend (1996), NASA TM-107279")
-def test_friction_at_speed_is_that_of_the_nasa_rig(rows):
-    """0.04 at 6000 rpm, where the film is thick and the unknown finish matters least."""
-    assert number(rows["B: largest friction, 6000 rpm"][2]) == pytest.approx(0.04, rel=0.26)
+@pytest.mark.parametrize("model", [1, 2])
+def test_friction_falls_with_speed_as_on_the_nasa_rig(rows, model):
+    """0.063 at 800 rpm to 0.040 at 6000 rpm: a fall by a third; the finish, and so the level, is not stated."""
+    slow, fast = (number(rows[f"B: largest friction, {rpm} rpm"][model]) for rpm in (800, 6000))
+    assert fast / slow == pytest.approx(0.040 / 0.063, rel=0.25)
 
 
 @pytest.mark.literature(

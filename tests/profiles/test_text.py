@@ -108,7 +108,7 @@ def test_rounded_positions_keep_the_measured_step(tmp_path):
         ("1 2\n2 3\n3\n4 5\n", "line 3: '3': expected 2 numbers"),
         ("1 2\n2 3\n3 abc\n4 5\n", "line 3: 'abc': not a number"),
         ("1 2\n3 2\n2 3\n4 5\n5 6\n", "point 3: 2.0: positions must increase"),
-        ("1 2\n2 2\n3 3\n4 5\n9 6\n", "positions must be equally spaced"),
+        ("1 2\n2 2\n3 3\n4 5\n4 6\n9 7\n", "positions must be equally spaced"),
         ("1 2\n2 3\n", "at least three heights"),
         ("1 2 3\n2 3 4\n3 4 5\n", "one or two columns.*not 3: save each column of heights"),
         ("1e400 2\n2 3\n3 4\n", "positions must be finite"),
@@ -288,18 +288,21 @@ def test_a_step_that_overrules_the_file_is_told(tmp_path, text):
 
 
 def test_bad_positions_are_replaced_by_the_step_that_is_told(tmp_path):
-    text = "x_um,z_um\n" + "".join(f"{x:.3f},{z:.6f}\n" for x, z in zip((0, 1, 3, 4, 9, 10), HEIGHTS))
+    text = "x_um,z_um\n" + "".join(f"{x:.3f},{z:.6f}\n" for x, z in zip((0, 1, 3, 2, 9, 10), HEIGHTS))
     with pytest.raises(InputError, match=r"give the step as spacing '0\.5 um'"):
         read(written(tmp_path, text))
-    assert read(written(tmp_path, text), spacing="0.5 um").spacing == 0.5e-6
+    told = read(written(tmp_path, text), spacing="0.5 um")
+    assert told.spacing == 0.5e-6
+    assert "positions must increase" in told.origin["spacing_overruled"]
 
 
-def test_positions_that_fall_by_whole_numbers_are_refused_not_taken_for_a_decimal_comma(tmp_path):
+def test_positions_that_fall_by_whole_numbers_are_not_taken_for_a_decimal_comma(tmp_path):
     """7999,142 is two columns, not the number 7999.142."""
     falling = "".join(f"{50 - i},{abs(round(1000 * z))}\n" for i, z in enumerate(HEIGHTS))
     for heading in ("x_um,z_nm\n", ""):
-        with pytest.raises(InputError, match="positions must increase"):
-            read(written(tmp_path, heading + falling), unit="um, nm", spacing=None)
+        trace = read(written(tmp_path, heading + falling), unit="um, nm", spacing=None)
+        assert trace.spacing == pytest.approx(1e-6)
+        assert trace.heights[-1] == pytest.approx(abs(HEIGHTS[0]) * 1e-6, abs=1e-9)
 
 
 def test_a_heading_of_two_names_parts_two_columns_at_their_comma(tmp_path):

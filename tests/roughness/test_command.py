@@ -255,10 +255,11 @@ def test_a_study_tells_of_inferred_units_and_an_overruled_step_is_told_by_the_co
     with collected() as found:
         rig_of(tmp_path, bare={"profile": "bare.csv", "cutoff_mm": 0.8, "short_cutoff_um": 2.5}).surface("bare")
     assert ("trace_quality", "surfaces.bare") in [(note.code, note.place) for note in found]
-    words = ["--spacing", "0.3 um", "--no-figures", "--replace", "--out", str(tmp_path / "o")]
-    assert main(["profile", str(tmp_path / "bare.csv"), *words]) == 0
+    out = str(tmp_path / "o")
+    assert main(["profile", str(tmp_path / "bare.csv"), "--spacing", "0.3 um", "--no-figures", "--out", out]) == 0
+    out += "2"
     (tmp_path / "named.csv").write_text("x_mm,z_um\n" + rows)
-    assert main(["profile", str(tmp_path / "named.csv"), *words]) == 0
+    assert main(["profile", str(tmp_path / "named.csv"), "--spacing", "0.3 um", "--no-figures", "--out", out]) == 0
     assert "spacing: the file has a step of 0.25 um, taken as 0.3 um as told" in capsys.readouterr().err
 
 
@@ -285,8 +286,8 @@ def test_a_unit_that_makes_the_steps_too_long_is_asked_about(tmp_path, capsys):
     assert "cut-off (mm): 0.8: each sampling length needs at least 8 points, the cut-off holds 1.6 of 500 um" in told
 
 
-def test_unequal_positions_tell_the_option(tmp_path, capsys):
-    (tmp_path / "t.csv").write_text("x_um,z_um\n" + "".join(f"{x},{x % 3}\n" for x in (0, 1, 2, 4, 9, 11, 12, 13, 20)))
+def test_positions_that_go_back_tell_the_option(tmp_path, capsys):
+    (tmp_path / "t.csv").write_text("x_um,z_um\n" + "".join(f"{x},{x % 3}\n" for x in (0, 1, 2, 4, 3, 11, 12, 13, 20)))
     assert main(["profile", str(tmp_path / "t.csv"), "--no-figures", "--out", str(tmp_path / "o")]) == 2
     assert "if only their column is bad, give the step as --spacing '0.5 um'" in capsys.readouterr().err
 
@@ -308,6 +309,48 @@ def test_every_file_that_cannot_be_read_is_named_at_once(tmp_path, capsys):
     said = capsys.readouterr().err
     assert f"{files[0]}: line 202: 'NaN': positions must be finite numbers; and {files[1]}: the file is empty" in said
     assert f"{files[2]}: no such file" in said
+
+    (row,) = json.loads((tmp_path / "o" / "profile.json").read_text())
+    assert row["file"] == str(TRACES / "0258.txt")
+    assert "1 other file evaluated" in said
+
+
+def test_a_trace_that_cannot_be_evaluated_stops_no_other(tmp_path, capsys):
+    (tmp_path / "flat.csv").write_text("x_um,z_um\n" + "".join(f"{i * 0.5},0.1\n" for i in range(400)))
+    out, files = tmp_path / "o", [str(tmp_path / "flat.csv"), str(TRACES / "0258.txt")]
+    assert main(["profile", *files, "--no-figures", "--out", str(out)]) == 2
+    assert len(json.loads((out / "profile.json").read_text())) == 1
+    assert f"{tmp_path / 'flat.csv'}: " in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["ridges.x3p", "ridges.sdf"])
+@pytest.mark.parametrize("degrees", [0.0, 30.0])
+def test_of_a_height_map_a_trace_across_the_lay_is_evaluated_and_said(tmp_path, evaluated, name, degrees):
+    """Ridges of 0.4 um and 20 um: across them m0 is A^2/2 and m2 k^2 A^2/2, along them nothing."""
+    import sdfio
+    import x3pio
+
+    y, x = np.mgrid[0:200, 0:240]
+    along = x * np.cos(np.radians(degrees)) + y * np.sin(np.radians(degrees))
+    heights = 0.4e-6 * np.cos(2 * np.pi * along / 20.0) + 1e-8 * y
+    heights[50, 60] = np.nan
+    {"ridges.x3p": x3pio.write, "ridges.sdf": sdfio.write}[name](tmp_path / name, heights, x_scale=1e-6, y_scale=1e-6)
+    row = evaluated(tmp_path / name)
+    (said,) = (step for step in row["steps"] if "across the lay of a map" in step)
+    assert float(said.split(" degrees")[0].rpartition(" ")[2]) == pytest.approx(degrees, abs=1.0)
+    assert row["moments"]["m0_um2"] == pytest.approx(0.08, rel=0.05)
+    assert row["moments"]["m2"] == pytest.approx(0.08 * (2 * np.pi / 20) ** 2, rel=0.05)
+
+
+def test_a_height_map_has_no_step_to_tell(tmp_path, capsys):
+    import sdfio
+
+    sdfio.write(tmp_path / "a.sdf", np.random.default_rng(1).normal(size=(40, 40)) * 1e-7, x_scale=1e-6, y_scale=1e-6)
+    words = ["profile", str(tmp_path / "a.sdf"), "--no-figures", "--out", str(tmp_path / "o"), "--spacing", "1 um"]
+    assert main(words) == 2
+    assert "--spacing" in capsys.readouterr().err
+    with pytest.raises(profiles.InputError, match=r'map = "a\.sdf".*along_direction\(read_map\("a\.sdf"\), angle\)'):
+        profiles.read(tmp_path / "a.sdf")
 
 
 def test_limits_of_form_and_trim_are_told_in_plain_numbers(tmp_path, capsys):

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from profiles import InputError, Profile
-from roughness import core_parameters, material_ratio, material_ratio_curve
-from roughness.material_ratio import CORE_METHODS
+from roughness import core_parameters, material_ratio, material_ratio_curve, profile_record
+from roughness.material_ratio import CORE_METHODS, core_profile
 
 
 def normal_heights(points=40_000):
@@ -63,3 +63,30 @@ def test_sine_and_square_are_flagged(method, wave):
 def test_unknown_method_is_refused():
     with pytest.raises(InputError, match="nearest known: 'class levels'"):
         core_parameters(normal_heights(100), method="levels")
+
+
+class TestEvaluationLength:
+    """The Rk family is read off one evaluation length: five sampling lengths in the middle of a longer trace."""
+
+    def trace(self) -> Profile:
+        rng = np.random.default_rng(3)
+        heights = rng.normal(size=4800)
+        heights[:400] *= 20.0  # a defect within the first sampling length, outside the evaluation length
+        return Profile(heights * 1e-7, 1e-6, cutoffs={"cutoff": 0.8e-3})
+
+    def test_a_record_takes_the_middle_five_and_says_so(self):
+        trace = self.trace()
+        found = profile_record(trace)["parameters"]
+        middle = core_parameters(Profile(trace.heights[400:4400], 1e-6))
+        assert found["Rk_length_mm"] == pytest.approx(4.0)
+        for name in ("Rk", "Rpk", "Rvk"):
+            assert found[f"{name}_um"] == pytest.approx(getattr(middle, name) * 1e6)
+        assert core_parameters(trace).Rpk > 1.2 * middle.Rpk
+
+    @pytest.mark.parametrize("choice", [{"sections": 6}, {"convention": "NIST"}])
+    def test_a_stated_length_is_the_evaluation_length(self, choice):
+        assert profile_record(self.trace(), **choice)["parameters"]["Rk_length_mm"] == pytest.approx(4.8)
+
+    def test_a_short_trace_gives_all_its_sampling_lengths(self):
+        short = Profile(self.trace().heights[:2000], 1e-6, cutoffs={"cutoff": 0.8e-3})
+        assert core_profile(short).heights.size == 1600

@@ -16,7 +16,7 @@ def one_oil(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The kept solutions of one oil, as a file."""
     path = tmp_path_factory.mktemp("kept") / "one.csv"
     kept = solutions.read_solutions(solutions.KEPT)
-    kept[kept["oil"] == "atf"].to_csv(path, index=False)
+    kept[kept["oil"] == "atf"].to_csv(path, index=False, lineterminator="\n", float_format="%.4g")
     return path
 
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from mixedlub.base_model.chains import GEAR_LOSS
 from mixedlub.chain.model import Model
-from mixedlub.laws.base_models import GEAR_LOSS
 from mixedlub.study import batch, read_study, run_study
 from profiles.errors import InputError
 

@@ -78,7 +78,7 @@ def test_a_condition_outside_the_range_is_flagged(write_study: Any, law: Frictio
     assert (code in slow.flags) == bool(limited)
     if limited:
         assert slow.flags[code].all()
-        assert any(f"{law.name} is used at points" in str(one) for one in out_of_range(slow))
+        assert any(f"{law.name} is used outside" in str(one) for one in out_of_range(slow))
 
 
 def test_negative_friction_is_flagged(write_study: Any) -> None:

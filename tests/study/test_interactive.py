@@ -2,13 +2,15 @@
 
 import io
 import json
+import sys
 from urllib.parse import unquote
 
 import pandas as pd
 import pytest
 
 from mixedlub.report.chart_rows import SIDES, chart_rows
-from mixedlub.report.interactive import specification
+from mixedlub.report.interactive import explorer, specification
+from mixedlub.report.page import write_page
 from mixedlub.study import read_study, run_study
 from tests.study.conftest import study_file
 
@@ -128,3 +130,14 @@ def test_bands_are_layers_of_their_own(spec, tmp_path):
     assert (table[low] <= table.power_loss_W).all()
     assert (table.power_loss_W <= table[high]).all()
     assert low not in found["quantity"]["bind"]["options"]
+
+
+def test_a_page_without_the_library_of_the_chart_says_how_to_add_it(usual, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "vl_convert", None)
+    chart = explorer(usual)
+    assert (chart.library, chart.specification) == ("", {})
+    assert len(chart.rows.table) == 72
+    write_page(usual, tmp_path, [])
+    page = (tmp_path / "index.html").read_text(encoding="utf-8")
+    assert "mixedlub[interactive]" in page
+    assert "vegaEmbed" not in page

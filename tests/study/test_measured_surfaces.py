@@ -12,7 +12,8 @@ from mixedlub.study import read_study, run_study
 from mixedlub.study.record import resolved
 from profiles import finishes
 from profiles.errors import InputError
-from roughness import evaluation_profile, moments
+from profiles.read import read
+from roughness import evaluation_profile, height_parameters, moments
 from roughness.areal import areal_moments, areal_roughness
 
 STEP = 0.5e-6
@@ -35,8 +36,6 @@ def traces(tmp_path):
 
 
 def test_moments_of_several_traces_are_the_means(traces, write_study, tmp_path):
-    from profiles.read import read
-
     study = read_study(write_study(surfaces={"a": {"traces": traces[0], "cutoff_mm": 0.8}}))
     each = [moments(evaluation_profile(read(tmp_path / name), cutoff=0.8e-3)) for name in traces[0]]
     for name in ("m0", "m2", "m4"):
@@ -145,16 +144,27 @@ def test_heights_and_bands_of_a_map_are_those_of_the_whole(area_file, write_stud
     assert (own["power_loss"] < own["highest_power_loss"]).all()
 
 
-def test_a_map_with_holes_is_refused(area_file, write_study, tmp_path):
+@pytest.mark.parametrize(("rows", "refused"), [(2, False), (300, True)])
+def test_a_few_holes_of_a_map_are_left_out_and_said(area_file, write_study, tmp_path, rows, refused):
     import x3pio
 
     from profiles.image import read_map
 
     holed = np.array(read_map(area_file).heights)
-    holed[10:12, 30] = np.nan
+    holed[10 : 10 + rows, 30:230] = np.nan
     x3pio.write(tmp_path / "holed.x3p", holed, x_scale=STEP, y_scale=STEP)
-    with pytest.raises(InputError, match=r"surfaces\.a.*2 of 250000 points have no height"):
-        read_study(write_study(surfaces={"a": {"map": "holed.x3p"}}))
+    study = write_study(surfaces={"a": {"map": "holed.x3p"}})
+    if refused:
+        with pytest.raises(InputError, match=r"surfaces\.a.*60000 of 250000 points have no height"):
+            read_study(study)
+        return
+    found = read_study(study)
+    assert any(note.code == "trace_quality" and "400 of 250000" in note.text for note in found.notes)
+    whole = read_study(write_study(surfaces={"a": {"map": area_file.name}})).surfaces["a"]
+    for name in ("m0", "m2", "m4", "m2_along", "m4_along"):
+        assert getattr(found.surfaces["a"], name) == pytest.approx(getattr(whole, name), rel=0.03)
+    bands = write_study(surfaces={"a": {"map": "holed.x3p"}}, options={"heights": "measured", "bands": "both"})
+    assert np.isfinite(run_study(read_study(bands))["highest_power_loss"]).all()
 
 
 def test_a_lay_of_one_surface_of_two_is_refused(write_study):
@@ -253,3 +263,38 @@ def test_python_takes_surfaces_with_a_lay():
     assert ml.power_loss(pair, ml.oil("mineral"), ridged, **keys)["power_loss_W"].size == 1
     with pytest.raises(InputError, match="its lay is unknown"):
         ml.power_loss(pair, ml.oil("mineral"), (ridged, plain), **keys)
+
+
+class TestMeanRoughness:
+    """Laws that read Ra have the measured one; without a trace it is that of normal heights, which is said."""
+
+    CODE = "mean_roughness_assumed"
+
+    def studies(self, traces, write_study, friction):
+        cut = {"cutoff_mm": 0.8}
+        measured = {"a": {"traces": traces[0], **cut}, "b": {"traces": traces[1], **cut}}
+        by_trace = read_study(write_study(surfaces=measured, options={"friction": friction}))
+        stated = {
+            name: {"m0_um2": one.m0 * 1e12, "m2": one.m2, "m4_per_um2": one.m4 * 1e-12}
+            for name, one in by_trace.surfaces.items()
+        }
+        return by_trace, read_study(write_study(surfaces=stated, options={"friction": friction}))
+
+    def test_schlenk_reads_the_measured_one(self, traces, write_study, tmp_path):
+        """Ra^0.25 of both surfaces, against 0.798 Rq."""
+        by_trace, stated = self.studies(traces, write_study, "schlenk")
+        ra = {}
+        for name, files in zip("ab", traces, strict=True):
+            rough = [evaluation_profile(read(tmp_path / file), cutoff=0.8e-3) for file in files]
+            ra[name] = np.mean([height_parameters(one).Ra for one in rough])
+        rq = {name: one.m0**0.5 for name, one in stated.surfaces.items()}
+        ratio = run_study(by_trace)["power_loss"] / run_study(stated)["power_loss"]
+        for row, (a, b) in enumerate(by_trace.pairings):
+            expected = ((ra[a] + ra[b]) / ((2.0 / np.pi) ** 0.5 * (rq[a] + rq[b]))) ** 0.25
+            assert abs(expected - 1.0) > 1e-4
+            assert ratio[row] == pytest.approx(expected, rel=1e-6)
+
+    def test_the_assumption_is_said_once_where_a_law_reads_it(self, traces, write_study):
+        for friction, counts in (("schlenk", (0, 1)), ("tallian_mixture", (0, 0))):
+            studies = self.studies(traces, write_study, friction)
+            assert tuple(sum(one.code == self.CODE for one in study.notes) for study in studies) == counts

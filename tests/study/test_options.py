@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from mixedlub.base_model.chains import GEAR_LOSS
 from mixedlub.chain.slots import FILM, SLOTS
-from mixedlub.laws.base_models import GEAR_LOSS
 from mixedlub.study import read_study, run_study
 from mixedlub.study.options import study_chain
 from mixedlub.study.schema import Options

@@ -10,7 +10,7 @@ import pytest
 import mixedlub as ml
 from mixedlub.case.folder import read_case
 from mixedlub.case.forward import Forward
-from mixedlub.case.overloaded import overloaded_asperities
+from mixedlub.case.validity import judge_rows
 from mixedlub.laws.contact import line_hertz_half_width
 from mixedlub.schema.findings import Severity, codes
 from mixedlub.study import read_study, run_study
@@ -135,8 +135,7 @@ def test_a_film_thicker_than_its_contact_is_wide_is_doubted(oil_temperature_C, d
 def test_a_case_says_of_its_rows_what_a_study_says_of_the_same_conditions():
     case = read_case(Path(__file__).parents[2] / "examples" / "case")
     rows = case.recordings.take(np.arange(0, 72, 5))
-    (note,) = overloaded_asperities(Forward(case, rows))
-    assert (note.code, note.severity) == ("asperities_overloaded", Severity.NOTE)
+    judged = judge_rows(Forward(case, rows))
     system, flagged = case.system, 0
     conditions = ("torque_Nm", "speed_rpm", "oil_temperature_C")
     for i in range(len(rows)):
@@ -147,7 +146,8 @@ def test_a_case_says_of_its_rows_what_a_study_says_of_the_same_conditions():
             found = ml.power_loss(system.gears, system.lubricant, both, **at)
         flagged += "asperities_overloaded" in str(found["validity"].values)
     assert 0 < flagged < len(rows)
-    assert f"in {flagged} of {len(rows)} rows" in note.text
+    assert sum("asperities_overloaded" in words for words in judged.words) == flagged
+    assert codes(judged.findings) == ["asperities_overloaded", "law_extrapolated"]
 
 
 def test_a_foundation_outside_its_range_is_flagged_in_every_row(write_study):

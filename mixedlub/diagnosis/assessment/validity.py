@@ -2,38 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 
-from mixedlub.case.folder import Case
-from mixedlub.case.forward import Forward
+from mixedlub.case.validity import judge_rows
 from mixedlub.chain.effect import Effect
-from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.chain.ranges import findings
 from mixedlub.diagnosis.explanation import Explanation
-from mixedlub.diagnosis.labels import effect_words, number, words_of
-from mixedlub.diagnosis.problem import Problem, effects_of
-from mixedlub.diagnosis.settings.assessment import EXACT_EXPONENT, RANGE_SLACK
+from mixedlub.diagnosis.labels import effect_words, number
+from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.settings.assessment import EXACT_EXPONENT
 from mixedlub.diagnosis.settings.inference import NINETY
 from mixedlub.schema.findings import Finding, finding
-from mixedlub.schema.table import Table
 
 
-def beyond_range(problem: Problem, explanation: Explanation, z: np.ndarray) -> list[Finding]:
-    """A finding for each quantity of a fit that lies outside what one of its effects was made for."""
-    run = problem.run(explanation, z)
-    effects = (*problem.forward.known.effects, *effects_of(explanation.effects))
-    return outside(effects, {**run.inputs, **run.record.state}, problem.y.size)
-
-
-def known_beyond_range(case: Case, table: Table) -> list[Finding]:
-    """The same for the effects that a case names, at the rows of a table."""
-    if not case.system.effects:
-        return []
-    forward = Forward(case, table)
-    run = forward.run()
-    return outside(forward.known.effects, {**run.inputs, **run.record.state}, len(table))
+def beyond_range(problem: Problem, explanation: Explanation, z: np.ndarray) -> tuple[Finding, ...]:
+    """A finding for each effect of a fit that is used outside the range it was made for."""
+    judged = judge_rows(problem.forward, problem.parameters(explanation, z), problem.calibration(z))
+    own = [(limit, values) for limit, values in judged.reached if limit.code.partition(":")[2] in explanation.effects]
+    return findings(own, problem.y.shape, "readings", lambda code: effect_words(code.partition(":")[2]))
 
 
 def unpublished(effects: Sequence[Effect], z: np.ndarray, spread: np.ndarray) -> list[Finding]:
@@ -61,27 +49,4 @@ def unpublished(effects: Sequence[Effect], z: np.ndarray, spread: np.ndarray) ->
         else:
             text = f"{fitted}; published laws have {cited}, which these readings also allow"
             found.append(finding("parameter_beyond_published", text, effect_words(e.id)))
-    return found
-
-
-def outside(effects: Sequence[Effect], state: Mapping[str, Any], rows: int) -> list[Finding]:
-    """The same for quantities by name, shaped (rows or 1, points); those that are not there are not judged."""
-    found = []
-    for e in effects:
-        for name in e.valid.keys() & state.keys():
-            low, high = e.valid[name]
-            values = np.atleast_2d(np.asarray(state[name], dtype=float))
-            off = (values > high + RANGE_SLACK * abs(high)) | (values < low - RANGE_SLACK * abs(low))
-            if not off.any():
-                continue
-            count = int(np.broadcast_to(off.any(axis=1), rows).sum())
-            largest, smallest = float(values[off].max()), float(values[off].min())
-            reach = f"up to {number(largest)}" if largest > high else f"down to {number(smallest)}"
-            unit = GLOSSARY[name].unit.removeprefix("-")
-            span = f"{number(low)} to {number(high)} {unit}".rstrip()
-            text = (
-                f"the law is valid for {words_of(name)} {span}; in {count} of {rows} readings it is {reach}, where the "
-                "law is extrapolated"
-            )
-            found.append(finding("law_extrapolated", text, effect_words(e.id)))
     return found

@@ -111,14 +111,11 @@ def _free_factor(name: str) -> Effect:
         return quantity * np.exp(log_factor)
 
     return Effect(
-        id="free_factor",
+        name="free_factor",
         law=factor,
         stage="property",
         acts_on=(name,),
-        reads=(),
         parameters=(Parameter("log_factor", "-", Normal(0.0, 1.0), "logarithm of the free factor", null=0.0),),
-        equation="",
-        source="",
         fingerprint={},
         separated_by="",
     )

@@ -70,8 +70,6 @@ Bayes factor of a hundred against it, from which evidence is decisive."""
 LAW_OPEN = -2.3
 """Source: H. Jeffreys, Theory of Probability, 3rd ed. (1961), appendix B. Log odds above which a law cannot be
 excluded: a Bayes factor of ten against it, from which evidence is strong."""
-RANGE_SLACK = 1e-6
-"""Judgement. Share of a bound that rounding may exceed it by."""
 EXACT_EXPONENT = 0.01
 """Judgement. Distance of an exponent from one of a law at the end of its prior that counts as that: as printed."""
 

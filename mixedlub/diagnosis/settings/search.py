@@ -30,7 +30,7 @@ SUBSET = 600
 """Cost limit. Readings of that subset."""
 REFITTED_ON_ALL = 8
 """Cost limit. Most probable explanations of a subset that are fitted again to all readings."""
-PUBLISHED_WITHIN = 12.0
+PUBLISHED_WITHIN = 20.0
 """Cost limit. Log odds behind the best within which published laws of an explanation are weighed."""
 
 # Errors of form

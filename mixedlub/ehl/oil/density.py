@@ -4,14 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.ehl.oil.declared import DENSITY, GIGA, Given, kelvin, times
 from mixedlub.ehl.oil.oil import Slopes
 
 COMPRESSION, STIFFENING = 0.6e-9, 1.7e-9
 """Constants of Dowson and Higginson for mineral oil (1/Pa)."""
 
 
+TEMPERATURE = Given("known_temperature", "temperature_C", "temperature of that density", kelvin)
+EXPANSION = Given("expansion", "expansion_per_K", "thermal expansion")
+
+
+@DENSITY.offers("Dowson and Higginson, with thermal expansion", TEMPERATURE, EXPANSION)
 def dowson_higginson(
-    pressure: np.ndarray, temperature: np.ndarray, known_temperature: float, expansion: float
+    pressure: np.ndarray, temperature: np.ndarray, *, known_temperature: float, expansion: float
 ) -> Slopes:
     r"""Relative density by Dowson and Higginson, with thermal expansion.
 
@@ -19,32 +25,12 @@ def dowson_higginson(
 
     Source: D. Dowson, G. R. Higginson, Elastohydrodynamic Lubrication (1966).
 
-    >>> round(float(dowson_higginson(1e9, 313.15, 313.15, 6.5e-4)[0]), 4)
+    >>> round(float(dowson_higginson(1e9, 313.15, known_temperature=313.15, expansion=6.5e-4)[0]), 4)
     1.2222
     """
     stiff = 1.0 + STIFFENING * pressure
     squeezed, warm = 1.0 + COMPRESSION * pressure / stiff, 1.0 - expansion * (temperature - known_temperature)
     return squeezed * warm, COMPRESSION / stiff**2 * warm, -expansion * squeezed
-
-
-def tait(
-    pressure: np.ndarray,
-    temperature: np.ndarray,
-    known_temperature: float,
-    expansion: float,
-    bulk_modulus: float,
-    bulk_modulus_slope: float,
-    bulk_modulus_fall: float,
-) -> Slopes:
-    """Relative density by Tait's equation of state: the inverse of `tait_volume`. Source: as there.
-
-    >>> round(float(tait(1e9, 313.15, 313.15, 8e-4, 1.2e9, 11.0, 6e-3)[0]), 4)
-    1.2497
-    """
-    volume, by_p, by_t = tait_volume(
-        pressure, temperature, known_temperature, expansion, bulk_modulus, bulk_modulus_slope, bulk_modulus_fall
-    )
-    return 1.0 / volume, -by_p / volume**2, -by_t / volume**2
 
 
 def tait_volume(
@@ -78,8 +64,48 @@ def tait_volume(
     return warm * squeezed, by_p, expansion * squeezed + by_p * bulk_modulus_fall * pressure
 
 
+@DENSITY.offers(
+    "equation of state of Tait",
+    TEMPERATURE,
+    EXPANSION,
+    Given("bulk_modulus", "bulk_modulus_GPa", "bulk modulus at temperature_C", times(GIGA), limits={"gt": 0.0}),
+    Given("bulk_modulus_slope", "bulk_modulus_slope", "its slope in pressure", limits={"gt": 0.0}),
+    Given("bulk_modulus_fall", "bulk_modulus_fall_per_K", "its relative fall per kelvin", limits={"ge": 0.0}),
+    volume=tait_volume,
+)
+def tait(
+    pressure: np.ndarray,
+    temperature: np.ndarray,
+    *,
+    known_temperature: float,
+    expansion: float,
+    bulk_modulus: float,
+    bulk_modulus_slope: float,
+    bulk_modulus_fall: float,
+) -> Slopes:
+    r"""Relative density by Tait's equation of state, the inverse of `tait_volume`.
+
+    .. math:: \bar\rho = V_0/V
+
+    Source: the equation of Tait as in S. Bair, High-Pressure Rheology for Quantitative Elastohydrodynamics (2007).
+
+    >>> known = dict(known_temperature=313.15, expansion=8e-4, bulk_modulus_fall=6e-3)
+    >>> round(float(tait(1e9, 313.15, **known, bulk_modulus=1.2e9, bulk_modulus_slope=11.0)[0]), 4)
+    1.2497
+    """
+    volume, by_p, by_t = tait_volume(
+        pressure, temperature, known_temperature, expansion, bulk_modulus, bulk_modulus_slope, bulk_modulus_fall
+    )
+    return 1.0 / volume, -by_p / volume**2, -by_t / volume**2
+
+
+@DENSITY.offers("not at all, and no thermal expansion")
 def incompressible(pressure: np.ndarray, temperature: np.ndarray) -> Slopes:
-    """Relative density of an incompressible oil: one. Source: definition.
+    r"""Relative density of an incompressible oil.
+
+    .. math:: \bar\rho = 1
+
+    Source: definition.
 
     >>> float(incompressible(1e9, 313.15)[0])
     1.0

@@ -39,9 +39,9 @@ def roelands(pressure: np.ndarray, temperature: np.ndarray, of: Lubricant) -> Sl
     Source: as `mixedlub.laws.oil.roelands_viscosity`.
     """
     ambient, alpha = of.viscosity(temperature), of.pressure_coefficient(temperature)
-    size, exponent, fall = np.log(ambient) + ROELANDS_LOG, oil.roelands_exponent(ambient, alpha), _fall(temperature, of)
+    size, exponent, fall = np.log(ambient) + ROELANDS_LOG, oil.roelands_exponent(ambient, alpha), of.fall(temperature)
     growth, squeezed = oil.roelands_growth(exponent, pressure), np.log1p(pressure / ROELANDS_PRESSURE)
-    by_alpha = squeezed * _change(of.pressure_viscosity, of) * ROELANDS_PRESSURE
+    by_alpha = squeezed * of.coefficient_change(temperature) * ROELANDS_PRESSURE
     return (
         size * growth - ROELANDS_LOG,
         size * growth * exponent / (ROELANDS_PRESSURE + pressure),
@@ -63,14 +63,8 @@ def modulus(pressure: np.ndarray, temperature: np.ndarray, of: Lubricant) -> Slo
     return (
         np.log(known["viscosity"]) + oil.modulus_rise(base, slope, pressure),
         base / whole**2,
-        -_fall(temperature, of) - pressure * stiffer / whole**2,
+        -of.fall(temperature) - pressure * stiffer / whole**2,
     )
-
-
-def _fall(temperature: np.ndarray, of: Lubricant) -> np.ndarray:
-    """Relative fall of the viscosity at ambient pressure (1/K)."""
-    thinner = of.density_change * of.density_15 / of.density(temperature)
-    return oil.temperature_viscosity(temperature, of.temperature, of.kinematic_viscosity) + thinner
 
 
 def _change(values: tuple[float, float] | None, of: Lubricant) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -16,6 +16,7 @@ from mixedlub.gear.mesh import Sharing
 from mixedlub.schema.section import Number, Section, Whole, key
 from mixedlub.schema.system_file import Gears
 from mixedlub.schema.toml_file import parse, read_toml
+from profiles.errors import InputError
 
 Positive = Annotated[Number, Field(gt=0.0)]
 
@@ -45,7 +46,14 @@ class MeshTable(Section):
 
 
 class Iso6336(Section):
-    dedendum: Number = key("dedendum of the basic rack over module", 1.25, gt=0.5, lt=3.0)
+    dedendum: Number | None = key(
+        "dedendum of the basic rack, as gears.dedendum",
+        None,
+        example=1.25,
+        alternative=True,
+        gt=0.5,
+        lt=3.0,
+    )
     blank_factor: Number = key("C_R of thin rims; 1: solid discs", 1.0, gt=0.0, le=1.0)
     application_factor: Number = key("K_A, by which the load is larger", 1.0, ge=1.0, le=10.0)
 
@@ -81,5 +89,11 @@ def read_problem(path: Path) -> Problem:
         edge_contact=file.mesh.edge_contact,
         pitch_deviation=tuple(value * 1e-6 for value in file.mesh.pitch_deviation_um),
     )
+    pair = gear_pair(file.gears)
+    if file.iso_6336.dedendum is not None:
+        if "dedendum" in file.gears.model_fields_set and file.iso_6336.dedendum != pair.dedendum:
+            rule = f"is not gears.dedendum = {pair.dedendum:g}: both are the dedendum of the basic rack; leave one out"
+            raise InputError(rule, where=f"{path}: iso_6336.dedendum", value=file.iso_6336.dedendum)
+        pair = replace(pair, dedendum=file.iso_6336.dedendum)
     shared = sharing(file.gears.load_sharing, path.parent)
-    return Problem(file, gear_pair(file.gears), shared, np.unique(np.array(file.load.torque_Nm)), conditions)
+    return Problem(file, pair, shared, np.unique(np.array(file.load.torque_Nm)), conditions)

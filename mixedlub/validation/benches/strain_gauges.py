@@ -85,12 +85,16 @@ class Errors:
 
 @dataclass(frozen=True)
 class Bench:
-    """Torque (N m), turns recorded, samples a turn, and the friction of the mesh."""
+    """Torque (N m), turns recorded, samples a turn, and the friction of the mesh.
+
+    ``step``: friction keeps its size up to the pitch point, where its direction changes.
+    """
 
     torque: float = 71.7
     turns: int = 40
     samples: int = 500
     friction: float = 0.045
+    step: bool = False
     errors: Errors = field(default_factory=Errors)
 
 
@@ -125,7 +129,8 @@ def forces(bench: Bench, tooth: Tooth, roll: float, asymmetry: float) -> tuple[f
     share = min(1.0, (1.0 + near / double) / 3.0) if near < double else 1.0
     normal = share * bench.torque * 1e3 / tooth.base_radius
     slide = (pitch - roll) / (end - pitch)
-    local = bench.friction * math.tanh(4.0 * abs(slide)) * (1.0 - 0.25 * abs(slide))
+    rise = 1.0 if bench.step else math.tanh(4.0 * abs(slide))
+    local = bench.friction * rise * (1.0 - 0.25 * abs(slide))
     sense = 1.0 if slide >= 0.0 else -1.0
     local += sense * asymmetry
     return normal, sense * local * normal, local

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mixedlub.case.forward import Forward
 from mixedlub.case.simulation import conditions_of
+from mixedlub.case.validity import judge_rows
 from mixedlub.chain.priors import Prior
 from mixedlub.diagnosis.assessment.prediction import Refined
 from mixedlub.diagnosis.diagnose import Diagnosis
@@ -17,6 +19,7 @@ from mixedlub.diagnosis.report.text.location_text import located
 from mixedlub.diagnosis.report.text.next_test_text import beyond
 from mixedlub.diagnosis.settings.inference import INTERVAL_ENDS, NINETY
 from mixedlub.schema.findings import as_records
+from mixedlub.schema.table import Table
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -147,8 +150,19 @@ def predictions(d: Diagnosis) -> pd.DataFrame:
         if p is not None:
             numbers = {name: getattr(p, name) for name in PREDICTED}
             columns = pd.DataFrame({"run": p.table["run"], **numbers})
-            parts.append(pd.concat([columns, conditions_of(d.case, p.table)], axis=1))
+            words = pd.Series(_validity(d, p.table), name="validity")
+            parts.append(pd.concat([columns, conditions_of(d.case, p.table), words], axis=1))
     return pd.concat(parts, ignore_index=True).drop_duplicates("run", ignore_index=True)
+
+
+def _validity(d: Diagnosis, table: Table) -> np.ndarray:
+    """Validity of the rows of a table with the verdict's effects, where the verdict has laws."""
+    problem, verdict = d.search.problem, d.posterior.verdict
+    scale = float(problem.forward.inputs["reading_scale"])
+    if verdict.is_discrepancy:
+        return judge_rows(Forward(d.case, table, scale)).words
+    z = d.refined[verdict].z
+    return judge_rows(Forward(d.case, table, scale), problem.parameters(verdict, z), problem.calibration(z)).words
 
 
 PREDICTED = ("base", "calibrated", "predicted", "low90", "high90", "mismatch_z")

@@ -12,23 +12,12 @@ from mixedlub.laws import balance
 from mixedlub.laws.contact import mean_hertz_pressure
 from profiles.errors import InputError
 
-EXACT = 1e-8
-"""Largest part of the load by which film and asperities together may miss it."""
 _CLOSE, _MOST_STEPS = 1e-12, 80
 """Cost limits. Difference of the logarithms at which the iteration ends, and most of its steps."""
 _LEAST = 1e-290
 """Least share of the asperities, near the smallest number whose logarithm is finite."""
 _FARTHEST = 700.0
 """Largest logit of the asperities' share: the film carries 1e-304 of the load."""
-
-
-def overloaded(asperity_load_ratio: np.ndarray) -> np.ndarray:
-    """Whether asperities would carry more than the whole load.
-
-    >>> overloaded(np.array([0.5, 1.0, 1.5])).tolist()
-    [False, False, True]
-    """
-    return np.asarray(asperity_load_ratio) > 1.0 + EXACT
 
 
 def balanced_film(
@@ -99,7 +88,7 @@ def _root(film: np.ndarray, pressure: np.ndarray, k: float, carried: Callable[[n
 def balanced(chain: Chain) -> Chain:
     """The chain with a film that shares the load with the asperities, by the laws which the chain has for both.
 
-    >>> from mixedlub.laws.base_models import LINE
+    >>> from mixedlub.base_model.chains import LINE
     >>> names = [name for name, _ in balanced(LINE)]
     >>> names[names.index("full_load_film") :][:3]
     ['full_load_film', 'film_thickness', 'film_load_share']

@@ -1,0 +1,99 @@
+"""Columns that are not taken although the reading depends on them: asked before the case is written, or said."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from scipy.stats import rankdata
+
+from mixedlub.importers.answer_keys import COLUMNS
+from mixedlub.importers.base import Answers, Question
+from mixedlub.importers.text_table import ONLY, Cells, is_numeric, values_of
+from mixedlub.schema.toml_file import toml_value
+from mixedlub.schema.units import words_of
+from profiles.errors import InputError, nearest
+
+LEAVE = "import.leave"
+"""The headers of columns that are left out although readings change with them."""
+SHEAR_RATE = re.compile(r"\b(?:shear[ _-]?rate|scherrate|schergeschwindigkeit|schergefälle)\b")
+FEWEST = 3
+"""Judgement. Different values of a column, and readings at equal conditions, that show a dependence."""
+FOLLOWS, RELATED = 0.9, 0.7
+"""Judgement. Rank correlation with the reading from which it depends on the column, at equal conditions; from which a
+column is said to change with it, over all rows."""
+MOST_SAID = 3
+"""Judgement. Columns that are said to change with the reading at most."""
+
+
+def questions(
+    free: Cells,
+    conditions: Collection[np.ndarray],
+    reading: np.ndarray,
+    answers: Answers,
+    offered: Mapping[str, str],
+) -> list[Question]:
+    """A question on the columns left out that explain readings at equal conditions, or that are shear rates.
+
+    ``offered`` are the keys that take a column, by its header as a value.
+    """
+    left = answers.get(LEAVE, [])
+    listed = [left] if isinstance(left, str) else list(left)
+    unknown = next((header for header in listed if header not in free), None)
+    if unknown is not None:
+        raise InputError(f"is no column that is left out; {nearest(str(unknown), free)}", where=LEAVE, value=unknown)
+    open_columns = [h for h, cells in free.items() if h not in listed and _decides(h, cells, conditions, reading)]
+    if not open_columns:
+        return []
+    names = ", ".join(map(repr, open_columns))
+    rates = [h for h in open_columns if SHEAR_RATE.search(words_of(h))]
+    reason = f"no kind takes a shear rate ({rates[0]!r})" if rates else "readings at equal conditions change with it"
+    one = open_columns[0]
+    only = shlex.quote(f"{ONLY}{one}={free[one][0]}")
+    take = shlex.quote(f"{offered.get(toml_value(one), COLUMNS + 'COLUMN')}={toml_value(one)}")
+    text = f"{names} would be left out, and {reason}: keep rows of one value (--set {only}), take it by its column "
+    text += f"(--set {take}), or leave it out all the same"
+    if listed:
+        raise InputError(text, where=LEAVE, value=listed)
+    return [Question(LEAVE, text, toml_value(open_columns))]
+
+
+def _decides(header: str, cells: Sequence[str], conditions: Collection[np.ndarray], reading: np.ndarray) -> bool:
+    """Whether a column is a shear rate that varies, or orders the readings at equal conditions."""
+    if not is_numeric(cells):
+        return False
+    values = values_of(cells)
+    if np.unique(values[np.isfinite(values)]).size < 2:
+        return False
+    if SHEAR_RATE.search(words_of(header)):
+        return True
+    groups: dict[tuple[Any, ...], list[int]] = {}
+    for row, point in enumerate(zip(*(c.tolist() for c in conditions), strict=True)):
+        groups.setdefault(point, []).append(row)
+    related = [
+        abs(_rank_correlation(values[rows], reading[rows]))
+        for rows in groups.values()
+        if len(rows) >= FEWEST and np.unique(values[rows]).size >= FEWEST
+    ]
+    return len(related) >= 2 and float(np.median(related)) >= FOLLOWS
+
+
+def _rank_correlation(one: np.ndarray, other: np.ndarray) -> float:
+    known = np.isfinite(one) & np.isfinite(other)
+    first, second = rankdata(one[known]), rankdata(other[known])
+    if known.sum() < FEWEST or np.ptp(first) == 0.0 or np.ptp(second) == 0.0:
+        return 0.0
+    return float(np.corrcoef(first, second)[0, 1])
+
+
+def changing_with(free: Cells, reading: np.ndarray, quantity: str) -> Iterator[str]:
+    """Words on the columns left out that rise or fall with the reading, the closest first."""
+    related = {
+        h: abs(_rank_correlation(values_of(cells), reading)) for h, cells in free.items() if is_numeric(cells) and cells
+    }
+    near = sorted((h for h, share in related.items() if share >= RELATED), key=lambda h: -related[h])
+    for header in near[:MOST_SAID]:
+        yield f"{header!r} is not taken, and changes with {quantity} (rank correlation {related[header]:.2f})"

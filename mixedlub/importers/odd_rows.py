@@ -1,0 +1,101 @@
+"""Rows and cells of a table that are no readings: repeated headers, means and sums, errors of a spreadsheet."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from mixedlub.importers.decimals import Line
+from mixedlub.schema.table import is_number
+
+LINES_SHOWN = 5
+"""Lines that a note lists at most."""
+
+
+def count(number: int, thing: str) -> str:
+    """A number of things in words.
+
+    >>> count(1, "row"), count(3, "row")
+    ('1 row', '3 rows')
+    """
+    return f"{number} {thing}" + ("" if number == 1 else "s")
+
+
+def places(lines: Sequence[int]) -> str:
+    """Numbers of lines in words.
+
+    >>> places([14]), places([3, 9]), places(list(range(2, 20)))
+    ('line 14', 'lines 3, 9', 'lines 2, 3, 4, 5, 6 and 13 more')
+    """
+    more = f" and {len(lines) - LINES_SHOWN} more" if len(lines) > LINES_SHOWN else ""
+    return ("line " if len(lines) == 1 else "lines ") + ", ".join(map(str, lines[:LINES_SHOWN])) + more
+
+
+def without_repeated_headers(rows: Sequence[Line]) -> tuple[list[Line], str]:
+    """The rows without headers that are repeated between rows of numbers, and words on these.
+
+    >>> head, rows = ["rpm", "Nm"], [(2, ["1", "0.1"]), (5, ["2", "0.2"])]
+    >>> without_repeated_headers([(1, head), rows[0], (4, head), rows[1]])[1]
+    'line 4 repeats the header: the rows below are taken as of the same table'
+    """
+    seen: set[tuple[str, ...]] = set()
+    repeated = []
+    for number, row in rows:
+        words = tuple(filter(None, row))
+        if len(words) < 2 or any(map(is_number, words)):
+            continue
+        if words in seen:
+            repeated.append(number)
+        seen.add(words)
+    if not repeated or 2 * len(repeated) > len(rows):
+        return list(rows), ""
+    repeats = "repeats" if len(repeated) == 1 else "repeat"
+    words_of_it = f"{places(repeated)} {repeats} the header: the rows below are taken as of the same table"
+    return [line for line in rows if line[0] not in set(repeated)], words_of_it
+
+
+SUMMARY = re.compile(
+    r"(?:(?:arithmetic )?mean|averages?|avg|sum|total|median|std\.?|sd|s\.d\.|st\.? ?dev|std\.? ?dev|"
+    r"standard deviation|mittelwert|mittel|durchschnitt|summe|gesamt|stabw|standardabweichung)(?: ?values?)?\.?:?",
+    re.IGNORECASE,
+)
+"""Label of a row that summarises others."""
+
+
+def without_summaries(rows: Sequence[Line]) -> tuple[list[Line], str]:
+    """The rows without means and sums of others, by their labels, and words on these; a table of means keeps its rows.
+
+    >>> without_summaries([(2, ["1", "0.1"]), (3, ["2", "0.3"]), (4, ["Mean:", "0.2"])])
+    ([(2, ['1', '0.1']), (3, ['2', '0.3'])], "1 row left out, as it is labelled 'Mean:': line 4")
+    >>> without_summaries([(2, ["mean", "0.1"]), (3, ["sd", "0.3"])])[1]
+    ''
+    """
+    labels = {
+        number: next(label for label in map(SUMMARY.fullmatch, row) if label)[0]
+        for number, row in rows
+        if not all(map(is_number, row)) and any(map(SUMMARY.fullmatch, row))
+    }
+    if not labels or 2 * len(labels) > len(rows):
+        return list(rows), ""
+    named = ", ".join(map(repr, dict.fromkeys(labels.values())))
+    which = "as it is" if len(labels) == 1 else "as they are"
+    words = f"{count(len(labels), 'row')} left out, {which} labelled {named}: {places(list(labels))}"
+    return [line for line in rows if line[0] not in labels], words
+
+
+FAULT = re.compile(
+    r"#(?:DIV/0|VALUE|WERT|REF|BEZUG|NAME|NUM|ZAHL|NULL|SPILL|CALC|FORMULA)[!?]?|Err:\d+|"
+    r"[-+]?1\.#(?:INF|IND|QNAN)\d*|[-+]?inf(?:inity)?",
+    re.IGNORECASE,
+)
+"""Cell in which a program reports an error or an infinite number."""
+
+
+def cleared(cells: list[str], lines: Sequence[int]) -> dict[int, str]:
+    """The cells without a number because of an error, by their line; they are emptied."""
+    if not {"#", "i", "I", "E"} & set("".join(set(cells))):
+        return {}
+    faults = {i: cell for i, cell in enumerate(cells) if FAULT.fullmatch(cell)}
+    for i in faults:
+        cells[i] = ""
+    return {lines[i]: cell for i, cell in faults.items()}

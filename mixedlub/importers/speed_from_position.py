@@ -1,0 +1,65 @@
+"""A speed that a table holds as a position or an angle over time: its derivative."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from mixedlub.importers.base import Answers, read_note
+from mixedlub.importers.text_table import Cells, Sheet, TextColumn, is_numeric, values_of
+from mixedlub.importers.time_base import TIME
+from mixedlub.importers.vocabulary import BY_NAME, convert, target_of
+from mixedlub.schema.findings import Finding
+from mixedlub.schema.units import change_to, split
+from profiles.errors import InputError, nearest
+
+SPEED_FROM = "import.speed_from"
+"""The header of the position whose derivative over time is taken as speed."""
+SPEEDS = {"m": ("sliding_speed_m_s", 1.0), "deg": ("speed_rpm", 1.0 / 6.0)}
+"""By the unit of the position: the column that its derivative is, and its size for one unit a second."""
+FROM_POSITION = tuple(column for column, _ in SPEEDS.values())
+
+
+def _measure(header: str) -> str | None:
+    unit = split(header)[1] or ""
+    return next((measure for measure in SPEEDS if change_to(unit, measure) is not None), None)
+
+
+def positions(cells: Cells) -> list[str]:
+    """The headers that may be a position over time; none without a time.
+
+    >>> positions({"Time (s)": ["0", "1"], "Position (mm)": ["0", "5"], "Wear (mm)": ["0", "0"]})
+    ['Position (mm)', 'Wear (mm)']
+    """
+    if _time(cells) is None:
+        return []
+    return [h for h, values in cells.items() if _measure(h) and is_numeric(values)]
+
+
+def _time(cells: Cells) -> str | None:
+    return next((h for h, v in cells.items() if target_of(h) == BY_NAME[TIME] and split(h)[1] and is_numeric(v)), None)
+
+
+def with_speed(sheet: Sheet, answers: Answers) -> tuple[Sheet, list[Finding]]:
+    """The table with the speed that an answer derives from a position, by differences to both sides."""
+    header = answers.get(SPEED_FROM)
+    if header is None:
+        return sheet, []
+    if header not in positions(sheet.cells):
+        rule = "needs a position or an angle with its unit, and a time with its unit in the table"
+        raise InputError(f"{rule}; {nearest(str(header), positions(sheet.cells))}", where=SPEED_FROM, value=header)
+    time = str(_time(sheet.cells))
+    measure = str(_measure(header))
+    column, size = SPEEDS[measure]
+    factor, _ = change_to(str(split(header)[1]), measure) or (1.0, 0.0)
+    place = factor * values_of(sheet.cells[header])
+    seconds = convert(values_of(sheet.cells[time]), str(split(time)[1]), BY_NAME[TIME], time)
+    known = np.isfinite(place) & np.isfinite(seconds)
+    if known.sum() < 2 or np.any(np.diff(seconds[known]) <= 0.0):
+        raise InputError(f"needs a time that rises from row to row; {time!r} does not", where=SPEED_FROM, value=header)
+    speed = np.full(place.shape, np.nan)
+    speed[known] = size * np.gradient(place[known], seconds[known])
+    cells = {**sheet.cells, column: TextColumn("" if np.isnan(v) else f"{v:.9g}" for v in speed.tolist())}
+    note = f"{column} is the change of {header!r} over {time!r}, between the rows before and after"
+    return replace(sheet, cells=cells), [read_note(note, sheet.name)]

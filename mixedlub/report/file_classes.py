@@ -1,0 +1,30 @@
+"""Classes of the files that commands read, imported when one is asked for."""
+
+from __future__ import annotations
+
+from importlib import import_module
+
+from mixedlub.evaluate import EVALUATIONS
+from mixedlub.schema.section import Section
+
+STUDY = "study"
+_CLASSES = {
+    STUDY: "mixedlub.study.schema:StudyFile",
+    "factors": "mixedlub.study.factor_file:FactorFile",
+    "gear": "mixedlub.gear.analysis.file:GearAnalysisFile",
+    "efficiency": "mixedlub.efficiency.file:EfficiencyFile",
+    "ehl": "mixedlub.ehl.file:EhlFile",
+}
+FILES = tuple(_CLASSES)
+"""Files other than cases, by the command that reads them."""
+EVERY_CASE = ("", "uncertainty", "recording")
+"""Tables of `system.toml` that do not depend on its kind."""
+
+
+def file_class(name: str) -> type[Section]:
+    """The class of a file by its command or method."""
+    if name not in _CLASSES:
+        return EVALUATIONS[name].file
+    module, _, own = _CLASSES[name].partition(":")
+    found: type[Section] = getattr(import_module(module), own)
+    return found
