@@ -70,8 +70,7 @@ def write_frame(
     import pyarrow as pa
     import pyarrow.parquet as pq
 
-    sep, decimal = style.separator, style.decimal
-    _escaped(table).to_csv(csv, index=False, lineterminator="\n", sep=sep, decimal=decimal, float_format=DIGITS)
+    csv.write_bytes(_as_text(table, style).encode())
     mixed = [name for name in table.columns if table[name].dtype == object and table[name].map(type).nunique() > 1]
     arrow = pa.Table.from_pandas(table.astype(dict.fromkeys(mixed, str)), preserve_index=False)
     pq.write_table(arrow.cast(_described(arrow.schema, columns, {"title": title})), parquet)
@@ -143,10 +142,16 @@ def _cell(value: Any) -> Any:
     return None if isinstance(value, float) and value - value != 0.0 else escaped(value)
 
 
-def _escaped(table: pd.DataFrame) -> pd.DataFrame:
-    """The table with texts that no spreadsheet takes as a formula."""
+def _as_text(table: pd.DataFrame, style: CsvStyle, *, header: bool = True) -> str:
+    """The table as CSV, with texts that no spreadsheet takes as a formula."""
     texts = [name for name in table.columns if table[name].dtype.kind not in "fiub"]
-    return table.assign(**{name: table[name].map(escaped) for name in texts}).rename(columns=escaped)
+    plain = table.assign(**{name: table[name].map(escaped) for name in texts}).rename(columns=escaped)
+    sep, decimal = style.separator, style.decimal
+    return str(
+        plain.to_csv(
+            None, index=False, header=header, lineterminator="\n", sep=sep, decimal=decimal, float_format=DIGITS
+        )
+    )
 
 
 def _as_csv(table: pa.Table, style: CsvStyle, *, header: bool, quoted: bool) -> pa.Buffer:
@@ -154,16 +159,13 @@ def _as_csv(table: pa.Table, style: CsvStyle, *, header: bool, quoted: bool) -> 
     import pyarrow.compute as pc
     from pyarrow.csv import WriteOptions, write_csv
 
+    if style != STYLES["plain"]:
+        text = _as_text(table.to_pandas(), style, header=header)
+        return pa.py_buffer(text.encode())
     for place, one in enumerate(table.schema):
         if pa.types.is_string(one.type) and quoted:
             table = table.set_column(place, one.name, pc.replace_substring_regex(table[place], FORMULA, r"'\1"))
-        elif pa.types.is_floating(one.type) and style.decimal != ".":
-            text = pc.replace_substring(pc.cast(table[place], pa.string()), ".", style.decimal)
-            table = table.set_column(place, one.name, text)
-    style_of_quotes = "needed" if quoted else "none"
-    options = WriteOptions(
-        include_header=header, quoting_style=style_of_quotes, quoting_header="none", delimiter=style.separator
-    )
+    options = WriteOptions(include_header=header, quoting_style="needed" if quoted else "none", quoting_header="none")
     sink = pa.BufferOutputStream()
     write_csv(table, sink, options)
     return sink.getvalue()
