@@ -56,6 +56,7 @@ STRAIN_GAUGE = {
             roll_angle_deg="roll angle of the instrumented tooth",
             pinion_roll_angle_deg="roll angle of the pinion",
             single_contact="whether it is the only tooth in contact",
+            at_pitch_point="whether it is left out of the mean, as the step at the pitch point is smeared",
             sliding_speed_m_s="speed of the pinion's flank less that of the gear's",
             condition_number="condition number of the influence matrix",
         ),
@@ -66,6 +67,7 @@ STRAIN_GAUGE = {
         *described(**RECORDING, **GEARS, revolutions="revolutions of the average"),
         *OF_MESH,
         *described(
+            left_out_deg="roll angle about the pitch point that the mean leaves out",
             normal_force_over_nominal="mean normal force of single contact over torque over base radius",
             largest_condition_number="largest condition number of the influence matrix",
             removed_friction_force_N="friction force that recentring takes off, mean over the teeth",
