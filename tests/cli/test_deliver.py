@@ -114,11 +114,23 @@ def test_figures_that_fail_leave_the_tables_and_the_other_figures(gears, capsys,
     assert {path.name for path in Path("o/figures").iterdir()} == {"load_distribution.svg", "loss_factors.svg"}
 
 
+def without_meaning(folder):
+    """Columns of the tables in a folder that have no meaning."""
+    schemas = [pq.read_schema(path) for path in sorted(Path(folder).glob("*.parquet"))]
+    return [name for schema in schemas for name in schema.names if not schema.field(name).metadata[b"meaning"]]
+
+
+@pytest.mark.parametrize("method", sorted(EVALUATIONS))
+def test_every_column_of_an_evaluation_has_a_meaning(method, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", method, "--out", "given"]) == 0
+    assert main(["evaluate", method, f"given/{method}.toml", "--out", "o", "--no-figures"]) == 0
+    assert without_meaning("o") == []
+
+
 def test_every_column_of_a_table_has_a_meaning(gears):
     assert main(["gear", str(gears), "--out", "o", "--no-figures"]) == 0
-    for path in Path("o").glob("*.parquet"):
-        schema = pq.read_schema(path)
-        assert all(schema.field(name).metadata[b"meaning"] for name in schema.names), path.name
+    assert without_meaning("o") == []
     assert pq.read_schema("o/summary.parquet").field("torque_Nm").metadata[b"unit"] == b"N m"
 
 
