@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import multiprocessing
+import os
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import partial
 from importlib.resources import files
@@ -68,7 +70,7 @@ def write_page(
     drawn = [*surface_figures(study, profiles, judged), *figures(results)]
     printed = list(paper_figures(results)) if as_in_paper else []
     doing(f"drawing {len(drawn) + len(printed)} figures")
-    tasks: list[Callable[[], Any]] = [partial(explorer, results)]
+    tasks: list[Callable[[], Any]] = [partial(_chart, results)]
     tasks += [partial(_saved, one, drawings, formats) for one in (*drawn, *printed)]
     chart, *svgs = shared_out(lambda task: task(), tasks)
     shown = [{"name": one.name, "caption": one.caption, "svg": svg} for one, svg in zip(drawn, svgs)]
@@ -82,6 +84,13 @@ def write_page(
     page = template.render(**content(results), **texts, **embedded, figures=shown, printed=files_of)
     (folder / "index.html").write_text(page, encoding="utf-8")
     return of_heights
+
+
+def _chart(results: Results) -> Any:
+    """The interactive chart; a process that is ended while it makes it prints no stack of foreign code."""
+    if multiprocessing.parent_process() is not None:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
+    return explorer(results)
 
 
 def _start(given: str) -> str:
