@@ -208,9 +208,10 @@ def _write_tables(result: Result, how: How, aside: Path) -> None:
         else:
             write_frame(table, columns[name], csv, parquet, style, result.title)
     if how.xlsx and result.tables:
-        tables = {name: (table, columns[name]) for name, table in result.tables.items()}
-        for name in write_workbook(tables, aside / WORKBOOK):
-            note(f"{WORKBOOK} has the first rows of {name} alone, as a sheet takes no more")
+        long = [name for name, table in result.tables.items() if isinstance(table, LongTable) and not table.csv]
+        sheets = {name: (table, columns[name]) for name, table in result.tables.items() if name not in long}
+        for name in (*long, *write_workbook(sheets, aside / WORKBOOK)):
+            note(f"{name} is too long for {WORKBOOK}: the Parquet file has all of its rows")
 
 
 def _drawn(result: Result, to: Delivery, page: Page | None) -> bool:

@@ -27,7 +27,7 @@ from mixedlub.report.surfaces import (
     surface_rows,
     traced,
 )
-from mixedlub.running.parallel import shared_out
+from mixedlub.running.parallel import as_done
 from mixedlub.schema.findings import Finding, grouped
 from mixedlub.schema.section import FileTable, Key, table
 from mixedlub.study import counted, factors
@@ -69,10 +69,13 @@ def write_page(
     judged = judgement(profiles)
     drawn = [*surface_figures(study, profiles, judged), *figures(results)]
     printed = list(paper_figures(results)) if as_in_paper else []
-    doing(f"drawing {len(drawn) + len(printed)} figures")
     tasks: list[Callable[[], Any]] = [partial(_chart, results)]
     tasks += [partial(_saved, one, drawings, formats) for one in (*drawn, *printed)]
-    chart, *svgs = shared_out(lambda task: task(), tasks)
+    made: dict[int, Any] = {}
+    for place, one in as_done(lambda task: task(), tasks):
+        made[place] = one
+        doing(f"drawing: {len(made)} of {len(tasks)} figures")
+    chart, *svgs = (made[place] for place in range(len(tasks)))
     shown = [{"name": one.name, "caption": one.caption, "svg": svg} for one, svg in zip(drawn, svgs)]
     files_of = [{"file": f"{one.name}.{formats[0]}", "caption": one.caption} for one in printed]
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
