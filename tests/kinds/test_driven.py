@@ -1,6 +1,7 @@
 """Drives that are loaded in both senses: what their gears lose, and what the motor's torque constant may be."""
 
 import numpy as np
+
 from mixedlub.diagnosis.diagnose import diagnose_case
 from mixedlub.effects import find
 from mixedlub.importers import write_case
