@@ -149,10 +149,10 @@ temperature_difference  | theta_d    | K       | oil temperature over the mean o
 inverse_load            | q_w        | -       | smallest load recorded over the load
 log_load                | l_F        | -       | ln of the load over the middle one recorded, 0 where none is told
 load_fraction           | q_F        | -       | load on a drive over the largest load of the recording
+load_sense              | s_L        | -       | 1 where the motor drives the load, -1 where the load drives, else 0
 additive_fraction       | q_a        | -       | content of an additive over the largest content tested
 gears_fitted            | chi        | -       | 1 with gears; without: share of friction left, 0 for a gear pair
 motor_torque            | T_m        | N m     | torque that the controller computes from the motor current
-load_torque             | T_L        | N m     | torque of the load, of the sign of the speed where the motor drives
 reference_torque        | T_m0       | N m     | largest motor torque of the recording
 drive_angle             | phi        | rad     | angle the drive has turned
 pressure                | p          | Pa      | hydrostatic pressure

@@ -118,13 +118,13 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
     name = _load_column(table, recorded)
     if name is not None:
         found["load_fraction"] = column(np.abs(table[name]) / np.max(np.abs(recorded[name])))
+        if name == "torque_Nm" and {-1.0, 1.0} <= set(load_sense(recorded).tolist()):
+            found["load_sense"] = column(load_sense(table))
     if "additive_percent" in table and "additive_percent" in recorded and recorded["additive_percent"].any():
         found["additive_fraction"] = column(table["additive_percent"] / np.max(recorded["additive_percent"]))
     if "oil_temperature_C" in table:
         found["oil_temperature"] = column(table["oil_temperature_C"]) + ZERO_CELSIUS
     found.update(_motor_torque(table, recorded))
-    if "motor_torque" in found and driven_both_ways(recorded):
-        found["load_torque"] = found["motor_torque"]
     if "position_deg" in table:
         found["drive_angle"] = np.radians(column(table["position_deg"]))
     return found
@@ -172,10 +172,9 @@ def _motor_torque(table: Table, recorded: Table) -> Inputs:
     return {"reference_torque": float(np.max(np.abs(recorded[motor]))), "motor_torque": column(table[own])}
 
 
-def driven_both_ways(recorded: Table) -> bool:
-    """Whether the motor drives the load in some rows, and the load drives the motor in others."""
-    power = drive_speed(recorded) * recorded[str(_motor_column(recorded))]
-    return bool(np.any(power > 0.0) and np.any(power < 0.0))
+def load_sense(table: Table) -> np.ndarray:
+    """1 where the motor drives the load, -1 where the load drives the motor, 0 without load."""
+    return np.sign(drive_speed(table) * table["torque_Nm"])
 
 
 def fill_channels(table: Table, recorded: Table) -> Table:
