@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from mixedlub.report.chart_rows import SIDES, ChartRows, chart_rows
@@ -64,14 +65,19 @@ class Explorer:
 
 def explorer(results: Results) -> Explorer:
     """The interactive chart of a study with all that it needs."""
+    rows = chart_rows(results)
+    flags = [(code, one.text) for code, one in zip(results.flags, out_of_range(results), strict=True)]
+    return Explorer(specification(results, rows), rows, library(), flags)
+
+
+@cache
+def library() -> str:
+    """The text of Vega-Lite; bundled once in a process, as that takes seconds."""
     import altair as alt
     import vl_convert
 
-    rows = chart_rows(results)
-    flags = [(code, one.text) for code, one in zip(results.flags, out_of_range(results), strict=True)]
     version = ".".join(alt.SCHEMA_VERSION.split(".")[:2])
-    library = vl_convert.javascript_bundle(vl_version=version)  # type: ignore[call-arg]
-    return Explorer(specification(results, rows), rows, library, flags)
+    return str(vl_convert.javascript_bundle(vl_version=version))  # type: ignore[call-arg]
 
 
 def specification(results: Results, rows: ChartRows) -> dict[str, Any]:

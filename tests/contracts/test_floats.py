@@ -22,7 +22,7 @@ from tests.contracts.rigs import states
 from tests.contracts.test_scaling import OTHER_ARGUMENTS, laws
 
 ROOT = Path(__file__).parents[2]
-DOCUMENTED = (ast.Module, ast.ClassDef, ast.FunctionDef)
+Documented = ast.Module | ast.ClassDef | ast.FunctionDef
 SUMS = (
     *("loss.mean_friction", "loss.friction_of_path", "loss.sliding_integral"),
     *("loss.mesh_loss", "loss.over_path", "loss.rolling_loss"),
@@ -68,13 +68,20 @@ LOOKED_UP = re.compile(r"metres|length\(|cutoff_for|_mm2_s|typical|series_coeffi
 """Answers read from a table, a file or a unit's name as they stand there."""
 
 
+def documented(node: Documented) -> Iterator[Documented]:
+    """A module, a class or a function, and those in it."""
+    yield node
+    for inner in node.body:
+        if isinstance(inner, ast.ClassDef | ast.FunctionDef):
+            yield from documented(inner)
+
+
 def examples() -> Iterator[tuple[str, doctest.Example]]:
     """Every example of the packages whose answer is seen, with its place."""
     for package in ("profiles", "roughness", "mixedlub"):
         for path in sorted((ROOT / package).rglob("*.py")):
-            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-                text = ast.get_docstring(node, clean=False) if isinstance(node, DOCUMENTED) else None
-                for example in doctest.DocTestParser().get_examples(text or ""):
+            for node in documented(ast.parse(path.read_text(encoding="utf-8"))):
+                for example in doctest.DocTestParser().get_examples(ast.get_docstring(node, clean=False) or ""):
                     if example.want and not example.exc_msg:
                         yield f"{path.relative_to(ROOT)}: {example.source.strip()}", example
 
