@@ -229,7 +229,11 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("name", CASES)
+LONG = ("pressure_viscosity_law",)
+"""Effects whose search takes long, and which other tests here plant as well."""
+
+
+@pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.long if n in LONG else ()) for n in CASES])
 def test_planted_effect_leaves_no_more_than_form_and_noise_and_beats_its_rivals(make, name):
     plant, rivals = CASES[name]
     case = make(*plant())
