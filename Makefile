@@ -13,7 +13,7 @@ study: .venv/base
 
 # Threads of linear algebra in each worker would wait for each other.
 test: .venv/dev
-	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto --dist loadfile
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto --dist worksteal
 
 bench: .venv/dev
 	@for file in benchmarks/*.py; do $(BIN)/python $$file || exit 1; done

@@ -8,8 +8,9 @@ import re
 import sys
 import warnings
 from collections.abc import Sequence
+from functools import cache
 from textwrap import indent
-from typing import Annotated
+from typing import Annotated, Any
 
 # Before NumPy is loaded: matrices are small here, and threads of BLAS would wait on those of the batch engine.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -139,11 +140,17 @@ def _show(message: Warning | str, *rest: object, **named: object) -> None:
     print_findings([message.finding]) if isinstance(message, FindingWarning) else note(str(message))
 
 
+@cache
+def _program() -> Any:
+    """The commands with their options read, which takes longer than many commands do."""
+    return typer.main.get_command(app)
+
+
 def _run(words: list[str]) -> int:
     try:
         if not words[0].startswith("-") and words[0] not in (names := [c.NAME for c in COMMANDS]):
             raise InputError(f"no such command; {nearest(words[0], names)}", where="command", value=words[0])
-        status = typer.main.get_command(app).main(words, prog_name="mixedlub", standalone_mode=False)
+        status = _program().main(words, prog_name="mixedlub", standalone_mode=False)
         if status == CTRL_C:
             raise KeyboardInterrupt
         sys.stdout.flush()

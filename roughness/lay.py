@@ -17,8 +17,8 @@ FALL = 0.5
 def mean_moments(found: Sequence[Moments]) -> Moments:
     """The mean of the moments of several traces; spacing and cut-offs are kept where all have the same.
 
-    >>> mean_moments([Moments(1e-14, 1e-3, 1e9, cutoff=8e-4), Moments(3e-14, 3e-3, 2e9, cutoff=8e-4)]).m0
-    2e-14
+    >>> mean_moments([Moments(1e-14, 1e-3, 1e9, cutoff=8e-4), Moments(3e-14, 3e-3, 2e9, cutoff=8e-4)]).m4
+    1500000000.0
     """
     first = found[0]
     if len(found) == 1:

@@ -23,8 +23,8 @@ class Moments:
     that were added. Angular frequency: no factor of 2 pi.
 
     >>> both = Moments(1e-14, 1e-3, 1e9, cutoff=8e-4) + Moments(2e-14, 1e-3, 2e9, cutoff=8e-4)
-    >>> both.m0, both.m2, both.m4, both.cutoff
-    (3e-14, 0.002, 3000000000.0, 0.0008)
+    >>> round(both.m0 * 1e14, 9), both.m2, both.m4, both.cutoff
+    (3.0, 0.002, 3000000000.0, 0.0008)
     """
 
     m0: float

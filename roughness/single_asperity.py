@@ -64,8 +64,8 @@ def zhao_maietta_chang() -> Asperity:
     Beyond, A = 2 pi R omega and P = A H. Source: Y. Zhao, D. M. Maietta, L. Chang, J. Tribol. 122 (2000) 86.
 
     >>> one = zhao_maietta_chang()
-    >>> [round(float(one.load(xi)), 12) for xi in (1.0, 54.0)], round(5 / 54**0.5, 12)
-    ([1.0, 0.68041381744], 0.68041381744)
+    >>> [round(float(one.load(xi)), 9) for xi in (1.0, 54.0)], round(5 / 54**0.5, 9)
+    ([1.0, 0.680413817], 0.680413817)
     """
     return _ZHAO_MAIETTA_CHANG
 

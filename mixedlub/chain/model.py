@@ -160,6 +160,8 @@ def available(effect: Effect, chain: Chain, given: Sequence[str], want: str, kin
     """Whether the effect finds all it reads in this chain and can change the wanted quantity."""
     if effect.kinds and kind not in effect.kinds:
         return False
+    if not {*given, *(name for name, _ in chain)}.issuperset((*effect.acts_on, *effect.reads)):
+        return False
     try:
         model = Model(chain, given, (want,), (effect,))
     except ChainError:

@@ -48,7 +48,7 @@ def direction_dependence(
     """The two directions of a drive differ in friction; the viscous part may have an asymmetry of its own.
 
     >>> alike = dict(asymmetry=0.1, viscous_asymmetry=0.0)
-    >>> direction_dependence(np.array([2.0, -2.0]), 1.0, np.array([1.0, -1.0]), 1.0, **alike).tolist()
+    >>> direction_dependence(np.array([2.0, -2.0]), 1.0, np.array([1.0, -1.0]), 1.0, **alike).round(9).tolist()
     [2.2, -1.8]
     >>> apart = dict(asymmetry=0.1, viscous_asymmetry=0.2)   # 1.0 dry, 1.0 viscous: 1.1 + 1.3, 0.9 + 0.7
     >>> direction_dependence(np.array([2.0, -2.0]), 1.0, np.array([1.0, -1.0]), 1.0, **apart).round(3).tolist()

@@ -38,7 +38,7 @@ def load_dependent_friction(
     Terms relative to dry friction, such as the excess at low speed, grow with it. The exponent is 1.5 for rolling
     bearings that load themselves and below 1 for films, whose friction grows more slowly than load.
 
-    >>> float(load_dependent_friction(2.0, 0.5, growth=0.2, power=1.0))
+    >>> round(float(load_dependent_friction(2.0, 0.5, growth=0.2, power=1.0)), 9)
     2.2
     """
     return coulomb_torque * (1.0 + growth * load_fraction**power)

@@ -83,8 +83,8 @@ def convert(values: np.ndarray, unit: str, target: Target, where: str) -> np.nda
 
     >>> convert(np.array([1.5]), "mm/s", BY_NAME["entrainment_speed_m_s"], "file").tolist()
     [0.0015]
-    >>> 300.1 - 273.15, convert(np.array([300.1]), "K", BY_NAME["temperature_C"], "file").tolist()
-    (26.950000000000045, [26.95])
+    >>> convert(np.array([300.1]), "K", BY_NAME["temperature_C"], "file").tolist()   # not 26.9500000000000455
+    [26.95]
     """
     change = change_to(unit, target.unit)
     if change is None:

@@ -45,7 +45,7 @@ def shear_heating(
     The slope beta_p, as `contact_softening` has it, makes the form belong to Pa s.
     Source: A. W. Crook, Phil. Trans. R. Soc. A 254 (1961) 237.
 
-    >>> float(shear_heating(10.0, 10.0, 0.04, 0.125, 1.0))   # without pressure the slope is that of the oil
+    >>> round(float(shear_heating(10.0, 10.0, 0.04, 0.125, 1.0)), 9)   # without pressure the slope is that of the oil
     0.4
     """
     beta = contact_softening(temperature_viscosity, viscosity, contact_viscosity)

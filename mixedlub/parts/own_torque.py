@@ -25,7 +25,7 @@ def own_torque(shaft_speed: np.ndarray, *, constant: float, per_speed: float, pe
 
     Source: the user.
 
-    >>> float(own_torque(100.0, constant=0.5, per_speed=1e-3, per_speed_squared=1e-5))
+    >>> round(float(own_torque(100.0, constant=0.5, per_speed=1e-3, per_speed_squared=1e-5)), 9)
     0.7
     """
     return constant + per_speed * shaft_speed + per_speed_squared * shaft_speed**2

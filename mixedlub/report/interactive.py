@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from mixedlub.report.chart_rows import SIDES, ChartRows, chart_rows
@@ -67,13 +68,19 @@ def explorer(results: Results) -> Explorer:
     rows = chart_rows(results)
     flags = [(code, one.text) for code, one in zip(results.flags, out_of_range(results), strict=False)]
     try:
-        import altair as alt
-        import vl_convert
+        return Explorer(specification(results, rows), rows, library(), flags)
     except ModuleNotFoundError:
         return Explorer({}, rows, "", flags)
+
+
+@cache
+def library() -> str:
+    """The text of Vega-Lite; bundled once in a process, as that takes seconds."""
+    import altair as alt
+    import vl_convert
+
     version = ".".join(alt.SCHEMA_VERSION.split(".")[:2])
-    library = vl_convert.javascript_bundle(vl_version=version)  # type: ignore[call-arg]
-    return Explorer(specification(results, rows), rows, library, flags)
+    return str(vl_convert.javascript_bundle(vl_version=version))  # type: ignore[call-arg]
 
 
 def specification(results: Results, rows: ChartRows) -> dict[str, Any]:

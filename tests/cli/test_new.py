@@ -120,7 +120,11 @@ WITH_PAGES = {
 }
 
 
-@pytest.mark.parametrize("name", WITH_PAGES)
+LONG = ("efficiency", "ehl", "factors", "regression")
+"""Templates whose command runs in the example of its help too."""
+
+
+@pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.long if n in LONG else ()) for n in WITH_PAGES])
 def test_the_line_that_a_template_prints_runs_elsewhere(tmp_path, capsys, monkeypatch, name):
     monkeypatch.chdir(tmp_path)
     assert main(["new", name, "--out", "mine"]) == 0

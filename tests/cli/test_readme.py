@@ -34,6 +34,7 @@ def test_python_of_the_readme_runs(monkeypatch, capsys):
     assert "power_loss" in capsys.readouterr().out
 
 
+@pytest.mark.long
 def test_verdict_of_the_readme_is_that_of_the_example(tmp_path):
     assert main(["diagnose", str(ROOT / "examples/case"), "--out", str(tmp_path)]) == 0
     report = " ".join((tmp_path / "report.txt").read_text(encoding="utf-8").split())

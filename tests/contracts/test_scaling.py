@@ -132,9 +132,14 @@ def same(
     there = law(**{k: np.multiply(v, factor(units[k], logs)) for k, v in values.items()})
     pairs = zip(here, there, strict=True) if len(outputs) > 1 else ((here, there),)
     return all(
-        np.allclose(np.multiply(a, factor(unit, logs)), b, rtol=1e-9, atol=0.0)
+        np.allclose(np.multiply(a, factor(unit, logs)), b, rtol=1e-9, atol=1e-12 * largest(b))
         for (a, b), unit in zip(pairs, outputs, strict=True)
     )
+
+
+def largest(values: Any) -> float:
+    """Size of the largest finite value, against which a value that cancels to nothing is nothing."""
+    return float(np.max(np.abs(np.where(np.isfinite(values), values, 0.0)), initial=0.0))
 
 
 def check(

@@ -146,8 +146,9 @@ class TestIdentities:
 
     def test_helix_hand_does_not_matter(self):
         left, right = (replace(HONG, helix_angle=angle) for angle in (-0.3, 0.3))
-        assert left.contact_ratio == right.contact_ratio
-        assert left.overlap_ratio == right.overlap_ratio > 0
+        assert left.contact_ratio == pytest.approx(right.contact_ratio, rel=1e-12)
+        assert left.overlap_ratio == pytest.approx(right.overlap_ratio, rel=1e-12)
+        assert left.overlap_ratio > 0
 
 
 REFUSED = {
@@ -233,7 +234,7 @@ class TestRefusals:
             max_size=4,
         )
     )
-    @settings(max_examples=400, deadline=None)
+    @settings(max_examples=100, deadline=None)
     def test_garbage_never_gives_anything_but_an_input_error(self, changes):
         try:
             pair = replace(HONG, **changes)

@@ -66,7 +66,7 @@ def test_formula_for_all_regimes_ends_in_the_exponents_of_its_asymptotes(rig, lo
     assert np.diff(np.log(film))[0] / np.diff(np.log(speed))[0] == pytest.approx(exponent, abs=0.005)
 
 
-@pytest.mark.parametrize("oil", OILS)
+@pytest.mark.parametrize("oil", ["usual", *(pytest.param(o, marks=pytest.mark.long) for o in OILS if o != "usual")])
 def test_films_of_another_film_law_lack_nothing(make, oil):
     d = diagnose_case(make(unnamed(), films(oil, heated=False)).folder)
     assert list(d.posterior.verdict.ids) == ["none"]
@@ -78,6 +78,7 @@ def test_film_that_heating_takes_is_found_under_another_film_law(make):
     assert list(d.posterior.verdict.ids) == ["inlet_shear_heating"]
 
 
+@pytest.mark.long
 def test_films_of_another_film_law_under_three_loads_lack_nothing_and_show_what_they_lack(make):
     found = [
         diagnose_case(make(unnamed(), films("cold", heated, (10.0, 30.0, 90.0))).folder) for heated in (False, True)

@@ -229,7 +229,11 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("name", CASES)
+LONG = ("pressure_viscosity_law",)
+"""Effects whose search takes long, and which other tests here plant as well."""
+
+
+@pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.long if n in LONG else ()) for n in CASES])
 def test_planted_effect_leaves_no_more_than_form_and_noise_and_beats_its_rivals(make, name):
     plant, rivals = CASES[name]
     case = make(*plant())
@@ -347,7 +351,9 @@ def test_a_motor_torque_that_contains_the_friction_is_no_condition(make) -> None
     assert "torque_constant" in d.posterior.verdict.effects
 
 
-@pytest.mark.parametrize(("effect_id", "drifts"), [("force_offset", False), ("force_drift", True)])
+@pytest.mark.parametrize(
+    ("effect_id", "drifts"), [("force_offset", False), pytest.param("force_drift", True, marks=pytest.mark.long)]
+)
 def test_zero_error_of_the_force_weighs_as_one_over_the_load(make, effect_id: str, drifts: bool) -> None:
     """0.1 of a load of 5 to 60 N, and a force that reads 0.05 N too much, or comes to."""
     load = np.tile([5.0, 10.0, 20.0, 60.0], 15)

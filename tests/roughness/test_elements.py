@@ -13,7 +13,7 @@ def test_triangle_wave():
     wave = Profile(np.abs((X % 100) - 50) / 25 - 1, 2e-6)
     e = element_parameters(wave)
     assert e.RSm == pytest.approx(200e-6, rel=1e-6)
-    assert e.Rc == pytest.approx(2, rel=0.02)
+    assert e.Rc == pytest.approx(2, abs=0.05)  # one step of the wave is 0.04
     assert e.width_variation < 1e-6
 
 

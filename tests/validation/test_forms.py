@@ -40,8 +40,8 @@ NEARLY = {
 That is the density of the oil, a rounded corner at 1 mm/s, at 2000 mm2/s rpm or at the limit of stress, exponentials
 where a fraction bends alike, and drag at creeping speeds.
 """
-STARTS, FEW, MANY = 60, 8, 40
-"""Starts drawn, and fits from the best of them: few where a law must stay apart, many where it must come near."""
+STARTS, FEW, MANY = 60, (8, 100), (40, 300)
+"""Starts drawn; fits from the best of them, and runs of the law in one: few where a law must stay apart."""
 LOGARITHMIC = {"viscosity", "pressure_viscosity", "contact_viscosity", "m0", "m2", "m4", "film_thickness"}
 
 
@@ -141,7 +141,7 @@ def _place(prior: Any, value: float) -> float:
     return float(np.log(value / _median(prior)))
 
 
-def misfit(sign: Signature, enough: float, fits: int) -> float:
+def misfit(sign: Signature, enough: float, fits: int, runs: int) -> float:
     """Largest error of the best fit over the largest change; no better fit is looked for than is enough."""
     size = np.abs(sign.change).max()
     parameters = sign.effect.parameters
@@ -178,9 +178,9 @@ def misfit(sign: Signature, enough: float, fits: int) -> float:
     best = np.inf
     for x in sorted(starts, key=lambda x: float(np.sum(error(x) ** 2)))[:fits]:
         tight = {"xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15, "x_scale": "jac"}
-        found = least_squares(error, x, bounds=(low, high), method="dogbox", max_nfev=300, **tight)
+        found = least_squares(error, x, bounds=(low, high), method="dogbox", max_nfev=runs, **tight)
         best = min(best, float(np.abs(found.fun).max()))
-        if best < 0.6 * enough:
+        if best < 0.9 * enough:
             break
     return best
 
@@ -258,16 +258,22 @@ def signatures(form: Any, place: Any) -> Iterator[Signature]:
 
 
 PLANTED = planted()
+QUICK = {(effect, within): (effect, law, within) for effect, law, within in PLANTED if law != "bode"}.values()
+"""A form of each effect that the catalogue's law can become, and one that it cannot; the fits to Bode's take long."""
 
 
-@pytest.mark.parametrize("key", list(PLANTED), ids=lambda key: "-".join(map(str, key)))
+@pytest.mark.parametrize(
+    "key",
+    [pytest.param(key, marks=() if key in QUICK else pytest.mark.long) for key in PLANTED],
+    ids=lambda key: "-".join(map(str, key)),
+)
 def test_the_catalogue_can_become_a_form_just_where_the_form_says_so(key):
     places, within = PLANTED[key], key[2]
     worst, bound = 0.0, NEARLY.get(key[:2], EXACT)
     for form, place in places[:3]:
         for sign in signatures(form, place):
             if worst <= max(APART, bound):
-                worst = max(worst, misfit(sign, bound, MANY if form.within else FEW))
+                worst = max(worst, misfit(sign, bound, *(MANY if form.within else FEW)))
     assert worst < bound if within else worst > APART
 
 
