@@ -27,8 +27,8 @@ FILMS = ("film_thickness", "law_film", "regression_film")
 """Steps of film laws, which an effect may replace."""
 BALANCE = (
     '; with the options balance "johnson_greenwood_poon" and mixture "load_weighted" the film gives way, and friction '
+    "follows the load that asperities carry"
 )
-"follows the load that asperities carry"
 """Advice on overloaded asperities in studies that can share the load."""
 
 

@@ -57,7 +57,7 @@ def share_lacking(film_load_share: np.ndarray, least_film_share: np.ndarray) -> 
 
     Source: K. L. Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91: the film's own contact.
 
-    >>> share_lacking(np.array([0.99, 0.5]), np.array([1.4, 1.4])).tolist()
+    >>> share_lacking(np.array([0.99, 0.5]), np.array([1.4, 1.4])).round(9).tolist()
     [0.0, 2.8]
     """
     return np.where(film_load_share > 1.0 - LEAST_ASPERITY_SHARE, 0.0, least_film_share / film_load_share)

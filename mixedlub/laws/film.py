@@ -338,7 +338,7 @@ def moes_line(moes_load: np.ndarray, moes_material: np.ndarray) -> np.ndarray:
 def film_over_contact_width(film_thickness: np.ndarray, hertz_half_width: np.ndarray) -> np.ndarray:
     """Film over the width of its Hertz contact (-), which is for thin and even films.
 
-    >>> film_over_contact_width(1e-6, 0.25e-3)
+    >>> round(film_over_contact_width(1e-6, 0.25e-3), 9)
     0.002
     """
     return film_thickness / (2.0 * hertz_half_width)

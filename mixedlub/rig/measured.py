@@ -84,8 +84,8 @@ class Measured:
         from roughness.parameters import evaluation_length
 
         if self.area is not None:
-            heights = self.area.heights - self.area.heights.mean()
-            return float(np.abs(heights).mean() / heights.std())
+            heights = self.area.heights[np.isfinite(self.area.heights)]
+            return float(np.abs(heights - heights.mean()).mean() / heights.std())
         assert self.across is not None
         parts = [evaluation_length(one) for one in self.across.filtered]
         ra = float(np.mean([np.abs(one.heights[one.valid]).mean() for one in parts]))

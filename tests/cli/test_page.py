@@ -55,7 +55,7 @@ def test_page_states_options_definitions_warnings_laws_and_effects(page):
         "mesh_integral",
         "mean over the path weighted by load times sliding speed",
         "plain mean over the path of contact",
-        "times the mean Hertz pressure",
+        "asperities would carry more than the load",
         "D. Dowson, S. Toyoda",
         "J. A. Greenwood, J. B. P. Williamson",
         "P. K. Gupta",

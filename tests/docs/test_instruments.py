@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from mixedlub import data_checks, effects
+from mixedlub.base_model import limits
 from mixedlub.case import reference_rigs
 from mixedlub.kinds import KINDS
 from mixedlub.schema.findings import registered
@@ -27,8 +28,9 @@ def named(text):
 
 @pytest.fixture(scope="module")
 def checks():
-    """Codes of findings in the source of the data checks."""
-    trees = [ast.parse(path.read_text("utf-8")) for path in Path(data_checks.__file__).parent.glob("*.py")]
+    """Codes of findings in the source of the data checks and of the judgement of ranges."""
+    paths = [*Path(data_checks.__file__).parent.glob("*.py"), Path(limits.__file__)]
+    trees = [ast.parse(path.read_text("utf-8")) for path in paths]
     texts = {one.value for tree in trees for one in ast.walk(tree) if isinstance(one, ast.Constant)}
     return texts & set(registered())
 

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from mixedlub.report.chart_rows import SIDES, chart_rows
-from mixedlub.report.interactive import explorer, specification
+from mixedlub.report.interactive import explorer, library, specification
 from mixedlub.report.page import write_page
 from mixedlub.study import read_study, run_study
 from tests.study.conftest import study_file
@@ -134,6 +134,7 @@ def test_bands_are_layers_of_their_own(spec, tmp_path):
 
 def test_a_page_without_the_library_of_the_chart_says_how_to_add_it(usual, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "vl_convert", None)
+    library.cache_clear()
     chart = explorer(usual)
     assert (chart.library, chart.specification) == ("", {})
     assert len(chart.rows.table) == 72
