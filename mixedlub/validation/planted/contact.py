@@ -174,9 +174,7 @@ def yielding_with_hardness(c: Contact, strength: float) -> Contact:
 
 
 def _yielded(c: Contact, onset: float, grown: Callable[[np.ndarray], np.ndarray]) -> Contact:
-    """Contact with summits (to 8 spreads high) that spread past the approach ``onset``^2 R by ``grown`` of its
-    multiples.
-    """
+    """Contact with summits (to 8 spreads) that spread past the approach ``onset``^2 R by ``grown`` of its multiples."""
     s = summits(c)
     t = (c.film - s.offset) / s.spread
     first = onset**2 * s.radius / s.spread

@@ -77,8 +77,7 @@ def walls_heated_alone(c: Contact, strength: float) -> Contact:
 def film_heated_in_layers(c: Contact, strength: float) -> Contact:
     """Nahme: tau asinh(sqrt N)/sqrt(N (1 + N)), N = strength beta tau v_s h/(8 k), the film thinnest in its hot middle.
 
-    Exact for stress proportional to viscosity exp(-beta T) between cold walls; beta of the oil at rest, tau the cold
-    value.
+    Exact for stress proportional to viscosity exp(-beta T) between cold walls; beta of the oil at rest, tau if cold.
     """
     heat = strength * c.rig.oil.thinning_at(c.temperature) * c.stress * c.sliding * c.film
     number = np.maximum(heat / (8 * c.rig.oil.conductivity), 1e-12)
