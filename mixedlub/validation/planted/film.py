@@ -89,7 +89,7 @@ def heated_at_rolling_sum(c: Contact, strength: float) -> Contact:
 def heated_under_pressure(c: Contact, strength: float) -> Contact:
     """h (1 - 13.2 (p0/E') L^0.42)/(1 + 0.213 (1 + 2.23 S^0.83) L^0.64), L = strength beta eta0 u^2/k, a tenth at least.
 
-    Zhu and Cheng, in Zhou and Hoeprich, J. Tribol. 113 (1991) 590, equation 21, and Gupta 1992; S: slide-roll ratio.
+    Zhu and Cheng, in Zhou and Hoeprich, J. Tribol. 113 (1991) 590, eq. 21, and Gupta et al. 1992; S: slide-roll ratio.
     """
     loading = strength * _heat(c, c.entrainment)
     rolling = np.maximum(1 - 13.2 * c.pressure / c.rig.solid.reduced * loading**0.42, 0.1)
