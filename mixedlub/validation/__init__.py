@@ -1,8 +1,8 @@
-"""Blind validation of the diagnosis: a generator of cases that shares nothing with the package, and a scorer.
+"""Blind validation of the diagnosis: a case generator independent of the package, and a scorer.
 
-Nothing here imports the laws, effects, gears or diagnosis of the package, so that agreement between the two is evidence
-and not a tautology. The laws are written a second time, slowly and plainly, with another discretisation. Effects are
-planted in published forms, most of them in several. Where the literature has more than the form of the catalogue, at
-least one is a form that the catalogue's law cannot become; ``Form.within`` separates them, so that both are scored
-apart. Zeros, spans and miscounted fringes, and drives whose directions differ, have the form of the catalogue alone.
+Nothing here imports the laws, effects, gears or diagnosis of the package; agreement is therefore evidence rather than a
+tautology. The laws are written a second time, slowly and plainly, with another discretisation. Effects are planted in
+published forms, most effects in several. Where the literature offers further forms, at least one planted form lies
+outside the catalogue's law; ``Form.within`` marks the difference, and both groups are scored separately. Zeros, spans,
+miscounted fringes and drives with unequal directions have only the form of the catalogue.
 """

@@ -1,4 +1,4 @@
-"""The truth of a case and the answer of a tool, read from their folders."""
+"""Truth of a case and answer of a tool, read from their folders."""
 
 from __future__ import annotations
 
@@ -19,12 +19,11 @@ IDENTIFIABLE = 9.0
 
 @dataclass(frozen=True)
 class Truth:
-    """The truth of a case; arrays run over all its readings, visible and withheld.
+    """Truth of a case; arrays over all readings, visible and withheld.
 
-    ``within`` is whether the catalogue's laws can become the planted ones; None where nothing is planted. ``forms`` are
-    the sources of the planted forms. ``laws`` are
-    the steps at which the rig follows another law; recalibration cannot hide those that are ``clear``, alone or beside
-    the others, and no law of another step comes near those that are ``sole``. ``flaws`` are what is wrong with the
+    ``within``: the catalogue's laws can become the planted laws; None if nothing is planted. ``forms``: sources of the
+    planted forms. ``laws``: steps with another law; ``clear_laws``: steps that recalibration cannot hide, alone or with
+    the others; ``sole_laws``: clear steps without imitation by a law of another step. ``flaws``: defects of the
     recording.
     """
 
@@ -61,13 +60,13 @@ class Truth:
 
     @property
     def off(self) -> np.ndarray:
-        """How far the base model at the true calibration is off, in sds."""
+        """Deviation of the base model at the true calibration, in sds."""
         return (self.values - self.base) / self.sd
 
 
 @dataclass(frozen=True)
 class Answer:
-    """The answer of a tool to a case: verdict, probabilities, flagged runs, and predictions by run."""
+    """Answer of a tool to a case: verdict, probabilities, flagged runs, and predictions by run."""
 
     case: str
     verdict: frozenset[str]
@@ -86,7 +85,7 @@ class Answer:
 
 
 def silent(truth: Truth) -> Answer:
-    """The answer counted for a tool that broke down on a case: no verdict, and every reading flagged."""
+    """Answer counted for a tool that broke down on a case: no verdict, and every reading flagged."""
     nothing, base = frozenset({"no answer"}), truth.base
     wrong = frozenset(int(run) for run in truth.run[~truth.withheld])
     return Answer(truth.case, nothing, (nothing,), {}, True, wrong, {}, {}, truth.run, base, base, base, base)
@@ -97,14 +96,14 @@ def _names(label: Any) -> frozenset[str]:
 
 
 def _clear_laws(truth: dict[str, Any]) -> tuple[frozenset[str], frozenset[str]]:
-    """Laws that can be identified, and those of them that no law of another step could be taken for."""
+    """Identifiable laws, and the identifiable laws that no law of another step imitates."""
     clear = frozenset(n for n, found in truth.get("law_misfit", {}).items() if min(found.values()) > CLEAR)
     nearest = {name: min(found.values(), default=np.inf) for name, found in truth.get("law_alternatives", {}).items()}
     return clear, frozenset(name for name in clear if nearest[name] > IDENTIFIABLE)
 
 
 def read_truth(folder: Path) -> Truth:
-    """The truth of a case; classes and identifiability are worked out where the file lacks them."""
+    """Truth of a case; classes and identifiability are derived if the file lacks them."""
     truth = json.loads((folder / "truth.json").read_text(encoding="utf-8"))
     rows = {name: np.array(values) for name, values in truth["rows"].items()}
     label = _names(truth["label"])
@@ -145,7 +144,7 @@ def read_truth(folder: Path) -> Truth:
 
 
 def read_answer(folder: Path) -> Answer:
-    """``diagnosis.json`` and ``predictions.csv`` of one case, and from ``seconds.json`` how long it took."""
+    """Answer of a case from ``diagnosis.json`` and ``predictions.csv``, with the duration from ``seconds.json``."""
     for name in ("diagnosis.json", "predictions.csv"):
         if not (folder / name).exists():
             raise InputError(f"{name} is missing: the case was not answered", where=str(folder))

@@ -1,7 +1,7 @@
-"""What an engineer would use instead, on the same cases and in the same files, so that the same scores apply.
+"""Baseline methods of an engineer, on the same cases and files, so that the same scores apply.
 
-Each baseline has the signature of the diagnosis: a case folder in, a folder of answers out. All start from
-this package's own base model, recalibrated under the stated priors.
+Each baseline has the signature of the diagnosis: a case folder in, a folder of answers out. All start from this
+package's base model, recalibrated under the stated priors.
 """
 
 from __future__ import annotations
@@ -24,17 +24,17 @@ from mixedlub.validation.rivals import FARTHEST, descend, sensitivity
 from profiles.errors import InputError
 
 RIGS: dict[str, Callable[[Case], Rig]] = {"gear_pair": gears.rig_of, "disc": discs.rig_of}
-"""Rigs that their case folder describes completely, and that a baseline can therefore model."""
+"""Rigs described completely by their case folder; a baseline can model only these."""
 ROUNDS = 20
 
 
 def refuse_without_learners() -> None:
-    """An error where scikit-learn is missing, without which there are no baselines."""
+    """Raise an error if scikit-learn, which the baselines need, is not installed."""
     _learner("base")
 
 
 def _learner(name: str) -> ModuleType:
-    """A module of scikit-learn, or what to install."""
+    """Module of scikit-learn; an error with the command to install it."""
     import importlib
 
     try:
@@ -46,7 +46,7 @@ def _learner(name: str) -> ModuleType:
 
 @dataclass(frozen=True)
 class Fitted:
-    """A case recalibrated: rows recorded first, then those to predict."""
+    """A recalibrated case: recorded rows first, then rows to predict."""
 
     name: str
     rig: Rig
@@ -65,12 +65,12 @@ class Fitted:
 
     @property
     def good(self) -> np.ndarray:
-        """Places of the recorded rows that are no outliers."""
+        """Indices of the recorded rows without outliers."""
         return np.flatnonzero(~self.spoiled)
 
     @property
     def residual(self) -> np.ndarray:
-        """Recorded minus calibrated over the sd, at the good rows."""
+        """Recorded minus calibrated values over the sd, at the good rows."""
         return ((self.recorded - self.value[: self.n_recorded]) / self.sd[: self.n_recorded])[self.good]
 
     @property
@@ -80,14 +80,14 @@ class Fitted:
 
     @property
     def calibration_sd(self) -> np.ndarray:
-        """Sd that the calibration's uncertainty leaves on every row."""
+        """Standard deviation of every row due to the uncertain calibration."""
         part = self.slopes[self.good] / self.sd[self.good, None]
         covariance = np.linalg.inv(part.T @ part + np.eye(len(self.z)))
         return np.sqrt(np.einsum("ij,jk,ik->i", self.slopes, covariance, self.slopes))
 
 
 def recalibrate(folder: Path) -> Fitted:
-    """Base model fitted to the recordings of a case under the priors, and again without the outliers of that fit."""
+    """Base model fitted to the recordings of a case under the priors, twice: the second fit omits outliers."""
     recording = read_case(folder)
     table = folder / "conditions.csv"
     wanted = read_case(folder, "conditions.csv").columns if table.exists() else {}
@@ -117,7 +117,7 @@ def recalibrate(folder: Path) -> Fitted:
 
 
 def _features(fitted: Fitted) -> np.ndarray:
-    """Logarithms of the conditions and of the composite roughness, temperature as it is, all standardised."""
+    """Standardised conditions and composite roughness; logarithms except for temperature and sequence."""
     columns = fitted.rig.columns
     names = [n for n, column in columns.items() if n != "run" and column.dtype != object]
     table = [columns[n] if n in ("oil_temperature_C", "sequence") else np.log(columns[n].astype(float)) for n in names]
@@ -138,7 +138,7 @@ def write_answer(
     extra_sd: np.ndarray | float = 0.0,
     base: np.ndarray | None = None,
 ) -> None:
-    """The two files of an answer: verdict first, mismatch against ``base`` or the calibrated model."""
+    """Write the two files of an answer: verdict first, mismatch against ``base`` or the calibrated model."""
     import pandas as pd
 
     out.mkdir(parents=True, exist_ok=True)
@@ -173,9 +173,9 @@ def write_answer(
 
 
 def _nameless(fitted: Fitted, out: Path, nats: float, predicted: np.ndarray, extra_sd: np.ndarray) -> None:
-    """The answer of a method without names: evidence for a mismatch (nats), shared evenly between the ids.
+    """Write the answer of a method without effect names: evidence for a mismatch (nats), shared evenly by the ids.
 
-    A fifth is given to unknown, which is also the verdict when a mismatch is likelier than not.
+    A fifth goes to unknown, which is the verdict if a mismatch is likelier than not.
     """
     something = float(1 / (1 + np.exp(-np.clip(nats, -30, 30))))
     ids = sorted(fitted.rig.ids)
@@ -186,7 +186,7 @@ def _nameless(fitted: Fitted, out: Path, nats: float, predicted: np.ndarray, ext
 
 
 def recalibration_only(folder: Path, out: Path) -> None:
-    """The base model recalibrated: unknown where its chi-square is beyond chance, no names."""
+    """Recalibrated base model: unknown if its chi-square is improbable, without effect names."""
     from scipy.stats import chi2
 
     fitted = recalibrate(folder)
@@ -195,7 +195,7 @@ def recalibration_only(folder: Path, out: Path) -> None:
 
 
 def gaussian_process(folder: Path, out: Path) -> None:
-    """Kennedy-O'Hagan-like: a Gaussian process over the conditions on what recalibration leaves."""
+    """Gaussian process over the conditions for the recalibrated residuals, as in Kennedy and O'Hagan."""
     process = _learner("gaussian_process")
     kernels = _learner("gaussian_process.kernels")
     fitted = recalibrate(folder)
@@ -214,7 +214,7 @@ def gaussian_process(folder: Path, out: Path) -> None:
 
 
 def gradient_boosting(folder: Path, out: Path) -> None:
-    """Boosted trees over the conditions on what recalibration leaves; evidence from five-fold prediction."""
+    """Boosted trees over the conditions for the recalibrated residuals; evidence from five-fold prediction."""
     ensemble, selection = _learner("ensemble"), _learner("model_selection")
     fitted = recalibrate(folder)
     x = _features(fitted)
@@ -232,7 +232,7 @@ def gradient_boosting(folder: Path, out: Path) -> None:
 
 
 def _signatures(fitted: Fitted) -> tuple[list[str], np.ndarray]:
-    """Names and signatures (rows by effects, in sds) of every effect at half its typical strength."""
+    """Names and signatures (rows by effects, in sds) of all effects at half their typical strength."""
     names, columns = [], []
     for name, effect in NAMED.items():
         if name in fitted.rig.ids:
@@ -248,7 +248,7 @@ def _signatures(fitted: Fitted) -> tuple[list[str], np.ndarray]:
 def sparse_regression(folder: Path, out: Path) -> None:
     """Cross-validated lasso on linearised effect signatures; probabilities are bootstrap selection rates.
 
-    The library is the generator's own, which flatters this baseline; the calibration is projected out first.
+    The signatures come from the generator, which flatters this baseline; the calibration is projected out first.
     """
     linear = _learner("linear_model")
     fitted = recalibrate(folder)

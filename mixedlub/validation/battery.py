@@ -24,12 +24,12 @@ from mixedlub.validation.worlds.misfit import told
 from profiles.errors import InputError
 
 RIGS_SURVEYED = 60
-"""Rigs of a kind that are drawn to find which effects can be planted on it."""
+"""Rigs drawn per kind to list the effects that can be planted on it."""
 Card = TypeVar("Card")
 
 
 def deck(rng: np.random.Generator, cards: Sequence[Card], weights: Sequence[float], count: int) -> list[Card]:
-    """``count`` cards in random order: each as often as its weight demands, the remainder by chance."""
+    """``count`` cards in random order, each in proportion to its weight, the remainder by chance."""
     due = count * np.array(weights) / np.sum(weights)
     times = np.floor(due).astype(int)
     order = rng.random(len(cards)) + (due - times) * 4
@@ -40,17 +40,17 @@ def deck(rng: np.random.Generator, cards: Sequence[Card], weights: Sequence[floa
 
 
 Survey = tuple[dict[str, float], dict[str, float]]
-"""Effects that can be planted on rigs of a kind, of the catalogue and outside it, with their weights."""
+"""Effects that can be planted on rigs of a kind, inside and outside the catalogue, with their weights."""
 
 
 def drawn_rigs(kind: str, seed: int) -> list[Rig]:
-    """Rigs of a kind, to find what can be planted on them."""
+    """Rigs of a kind drawn to list the effects that can be planted on them."""
     rng = np.random.default_rng([seed, 21])
     return [KINDS[kind].draw(rng) for _ in range(RIGS_SURVEYED)]
 
 
 def surveyed(drawn: Sequence[Rig]) -> Survey:
-    """What can be planted on some rigs."""
+    """Effects that can be planted on the drawn rigs."""
     named = {form.id: form.rarity for rig in drawn for form in rig.forms if form.rarity > 0}
     outside = {form.id: form.rarity for rig in drawn for form in rig.outside}
     return dict(sorted(named.items())), dict(sorted(outside.items()))
@@ -67,7 +67,7 @@ def contents(
     surveys: Mapping[str, Survey],
     partners_of: Mapping[str, Sequence[Partners]],
 ) -> list[Content]:
-    """What the cases of a family hold, class by class."""
+    """Contents of the cases of a family, class by class."""
     counts = {label: max(1, int(share * cases)) for label, share in family.classes.items()}
     counts["single"] += cases - sum(counts.values())
     pools: dict[str, dict[tuple[str, str], float]] = {"single": {}, "measurement": {}, "unknown": {}}
@@ -88,7 +88,7 @@ def contents(
 
 
 def ordered(rng: np.random.Generator, family: Family, dealt: Sequence[Content]) -> list[Order]:
-    """Orders of cases with the dealt contents, some small, some with outliers, some without a data sheet."""
+    """Orders of cases with the dealt contents: some small, some with outliers, some without a data sheet."""
     orders = []
     for index, (label, kind, effects) in enumerate(dealt):
         small = label in ("none", "single") and rng.random() < family.small
@@ -117,18 +117,18 @@ def _orders(rng: np.random.Generator, family: Family, seed: int, cases: int) -> 
 
 
 def families(kinds: Sequence[str]) -> list[Family]:
-    """Families of the chosen kinds, without the others."""
+    """Families restricted to the chosen kinds."""
     chosen = [replace(family, kinds=tuple(k for k in family.kinds if k in kinds)) for family in FAMILIES]
     return [family for family in chosen if family.kinds]
 
 
 def fewest(kinds: Sequence[str]) -> int:
-    """Cases of the smallest battery of some kinds: one of each class a family."""
+    """Smallest number of cases in a battery of the kinds: each class once per family."""
     return len(CLASSES) * len(families(kinds))
 
 
 def sizes(rng: np.random.Generator, chosen: Sequence[Family], cases: int, least: int) -> list[int]:
-    """Cases of each family, at least some of each: half of all are gears and discs, if they are among others."""
+    """Cases per family, at least ``least``; half of the rest go to gears and discs if other families are chosen too."""
     weights = [max(len(chosen) - 1.0, 1.0) if set(family.kinds) & set(CONTACTS) else 1.0 for family in chosen]
     each = [least] * len(chosen)
     for index in deck(rng, range(len(chosen)), weights, cases - least * len(chosen)):
@@ -137,7 +137,7 @@ def sizes(rng: np.random.Generator, chosen: Sequence[Family], cases: int, least:
 
 
 def plan(seed: int, cases: int, kinds: Sequence[str] = CONTACTS) -> list[Order]:
-    """The orders of a battery: every family as often, classes in fixed shares, in random order under neutral names."""
+    """Orders of a battery: families equally often, classes in fixed shares, in random order under neutral names."""
     if cases < fewest(kinds):
         raise InputError(f"a battery of these kinds has at least {fewest(kinds)} cases", where="cases", value=cases)
     chosen = families(kinds)
@@ -153,7 +153,7 @@ def shuffled(rng: np.random.Generator, orders: Sequence[Order]) -> list[Order]:
 
 
 def errors(rng: np.random.Generator, count: int, flaws: Sequence[str]) -> np.ndarray:
-    """Errors of readings in the order in which they are taken, over their standard deviation."""
+    """Errors of readings in recording order, over their standard deviation."""
     white = rng.standard_normal(count)
     if HEAVY in flaws:
         white = rng.standard_t(3, count) / np.sqrt(3.0)
@@ -175,7 +175,7 @@ def record(
     spoiled: bool,
     flaws: Sequence[str] = (),
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Readings with noise, and the rows of outliers: 2.5 % of the visible readings if the case has any."""
+    """Readings with noise, and the rows of outliers: 2.5 % of the visible readings if ``spoiled``."""
     recorded = truth + sd * errors(rng, len(truth), flaws)
     if not spoiled:
         return recorded, np.array([], dtype=int)
@@ -187,7 +187,7 @@ def record(
 def noise_stated(
     rng: np.random.Generator, sample: Sample, sd: np.ndarray, sd_column: float, flaws: Sequence[str] = ()
 ) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
-    """How the case states its noise: in the settings, in a column of its own, or by repeats alone."""
+    """Statement of the noise in the case: settings, an sd column, or repeats alone."""
     if SD_ESTIMATED in flaws:
         return _noise_estimated(rng, sample, sd)
     if sample.rig.repeats and rng.random() < 0.7:
@@ -200,7 +200,7 @@ def noise_stated(
 def _noise_estimated(
     rng: np.random.Generator, sample: Sample, sd: np.ndarray
 ) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
-    """Noise stated as estimated from a few repeats, of each reading or of all alike."""
+    """Noise stated as estimated from a few repeats, per reading or for all readings together."""
     free = int(rng.integers(2, 6))
     if rng.random() < 0.5:
         return {}, {f"{sample.rig.quantity}_sd": sd * np.sqrt(rng.chisquare(free, len(sd)) / free)}
@@ -210,7 +210,7 @@ def _noise_estimated(
 
 
 def weighed(sample: Sample, label: str) -> tuple[dict[str, float], float]:
-    """Least chi-square of every rival explanation, and of the truth itself."""
+    """Least chi-square of every rival explanation and of the truth."""
     rig, forms, knobs, z = sample.rig.nature, sample.forms, sample.knobs, sample.z
     visible = np.flatnonzero(~sample.hidden)
     truth = rig.records(z, sample.acts)
@@ -227,7 +227,7 @@ def weighed(sample: Sample, label: str) -> tuple[dict[str, float], float]:
 
 
 def identifiable(sample: Sample, others: dict[str, float], planted: float) -> bool:
-    """No rival comes near the truth; where nothing is missing none may be better, if the model is not exact."""
+    """Whether no rival comes near the truth; without effects, whether none is better if the model is inexact."""
     least = min(others.values()) - planted
     if sample.forms:
         return least > IDENTIFIABLE
@@ -235,7 +235,7 @@ def identifiable(sample: Sample, others: dict[str, float], planted: float) -> bo
 
 
 def truth_of(order: Order, sample: Sample, outliers: Sequence[int]) -> dict[str, Any]:
-    """Content of ``truth.json``: what is planted, at which calibration and noise, and how well rivals explain it."""
+    """Content of ``truth.json``: planted effects, calibration, noise, and fits of the rivals."""
     rig, z = sample.rig.refined, sample.z
     truth = rig.records(z, sample.acts)
     others, planted = weighed(sample, order.label)
@@ -282,7 +282,7 @@ def truth_of(order: Order, sample: Sample, outliers: Sequence[int]) -> dict[str,
 
 
 def make(seed: int, index: int, order: Order, folder: Path) -> str:
-    """Draw one case and write its folder with the truth; a complete folder stays as it is."""
+    """Draw one case and write its folder with the truth; a complete folder is left unchanged."""
     case_folder = folder / order.name
     if (case_folder / "truth.json").exists():
         return order.name
@@ -313,7 +313,7 @@ def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
 
 
 def _stop_at_once() -> None:
-    """Ctrl-C ends a worker silently, even within a case, which is made again when the run is resumed."""
+    """End a worker silently on Ctrl-C, even within a case, which is made again when the run is resumed."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
@@ -326,7 +326,7 @@ def generate(
     progress: Callable[[int, int], None] | None = None,
     dealt: Callable[[int, int, Sequence[str]], list[Order]] = plan,
 ) -> list[Path]:
-    """Write a battery of cases into a folder, or what is missing of it; returns the case folders."""
+    """Write the missing cases of a battery into a folder; returns the case folders."""
     orders = dealt(seed, cases, kinds)
     folder.mkdir(parents=True, exist_ok=True)
     mark, file = {"kinds": list(kinds), "seed": seed, "cases": cases}, folder / "battery.json"

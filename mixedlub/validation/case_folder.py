@@ -1,4 +1,4 @@
-"""A case folder: written as an engineer would hand it in, with the truth in a file of its own, and read back."""
+"""Case folders in the format of an engineer, with the truth in a separate file, written and read back."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from mixedlub.validation.rig import Case
 
 
 def plain(values: np.ndarray) -> list[float]:
-    """Numbers as they are written."""
+    """Numbers rounded to the written digits."""
     return [float(f"{value:.9g}") for value in values]
 
 
 def rows(run: np.ndarray, hidden: np.ndarray, **columns: np.ndarray) -> dict[str, list[Any]]:
-    """The rows of a truth: run numbers, which readings are kept back, and columns of numbers."""
+    """Rows of a truth: run numbers, withheld flags, and columns of numbers."""
     return {
         "run": [int(number) for number in run],
         "withheld": [bool(flag) for flag in hidden],
@@ -30,7 +30,7 @@ def rows(run: np.ndarray, hidden: np.ndarray, **columns: np.ndarray) -> dict[str
 def write(
     place: Path, case: Case, readings: Mapping[str, np.ndarray], hidden: np.ndarray, answer: dict[str, Any]
 ) -> None:
-    """The case folder without the withheld readings; ``truth.json`` is written last and marks it complete."""
+    """Write the case folder without the withheld readings; ``truth.json`` is written last and marks it complete."""
     import pandas as pd
 
     place.mkdir(parents=True, exist_ok=True)
@@ -53,7 +53,7 @@ def read_columns(file: Path) -> dict[str, np.ndarray]:
 
 
 def read_case(folder: Path, table: str = "recordings.csv") -> Case:
-    """A case folder with the columns of one of its tables."""
+    """Read a case folder with the columns of one table."""
     with open(folder / "system.toml", "rb") as stream:
         settings = tomllib.load(stream)
     share = folder / "load_share.csv"

@@ -1,8 +1,8 @@
-"""The base model of a lubricated contact, written a second time: what a rig records when nothing is missing.
+"""Base model of a lubricated contact, written a second time: the readings of a rig without planted effects.
 
-A recording of n readings is computed on arrays of shape (n, m): m points along the path of contact for
-gears (midpoints of equal steps), one point for all other contacts. Each stage of the chain takes a frozen ``Contact``
-and returns a new one; a planted effect is a function inserted after the stage that it changes.
+A recording of n readings is computed on arrays of shape (n, m): m points along the path of contact for gears (midpoints
+of equal steps), one point for all other contacts. Each stage of the chain takes a frozen ``Contact`` and returns a new
+one; a planted effect is a function inserted after the stage that it changes.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ class Solid:
 
 @dataclass(frozen=True)
 class Calibration:
-    """What a calibration may move: boundary friction by value, the others as factors on the data sheet."""
+    """Calibrated inputs: boundary friction by value, the others as factors on the data sheet."""
 
     boundary_friction: float = 0.1
     viscosity: float = 1.0
@@ -94,12 +94,11 @@ class Calibration:
 
 @dataclass(frozen=True)
 class Inputs:
-    """What the chain is given, readings by points: everything in SI units but temperatures in C.
+    """Inputs of the chain, readings by points: SI units except for temperatures in C.
 
-    ``share_force`` is the force on the tooth (or disc) at each point, ``step`` the length of path that a point
-    represents over the base pitch (1 without a path), ``conditions`` the columns of the case file by name. ``shares``
-    is what each of both surfaces has of the three composite moments (readings, 2, 3); left out, both are alike.
-    ``laws`` are those that the rig follows in place of the base model's, by the step that they replace.
+    ``share_force``: force on the tooth (or disc) at each point. ``step``: path length of a point over the base pitch (1
+    without a path). ``conditions``: columns of the case file by name. ``shares``: shares of the two surfaces in the
+    three composite moments (readings, 2, 3), equal by default. ``laws``: laws that replace the base model's, by step.
     """
 
     oil: Oil
@@ -124,13 +123,13 @@ class Inputs:
 
     @property
     def is_mesh(self) -> bool:
-        """Whether the contacts are those of a gear pair."""
+        """Whether the contacts belong to a gear pair."""
         return bool(self.extras)
 
 
 @dataclass(frozen=True)
 class Contact:
-    """State of every contact point along the chain; what a later stage makes is zero until then."""
+    """State of every contact point along the chain; outputs of later stages are zero."""
 
     rig: Inputs
     temperature: np.ndarray
@@ -194,7 +193,7 @@ def press(c: Contact) -> Contact:
 
 
 def followed(step: str, base: Stage) -> Stage:
-    """A stage by the law that the rig follows at this step, the base model's unless it has another."""
+    """Stage with the rig's law of the step, by default the base model's."""
     return lambda c: c.rig.laws.get(step, base)(c)
 
 
@@ -253,10 +252,7 @@ touch = followed("contact", greenwood_williamson)
 
 
 def thick(c: Contact, warmer: np.ndarray | float = 0.0) -> np.ndarray:
-    """Roelands viscosity (Pa s) at the maximum pressure, ``warmer`` kelvin above the oil temperature.
-
-    A rig may follow another law of viscosity under pressure.
-    """
+    """Viscosity (Pa s) at the maximum pressure, ``warmer`` kelvin above the oil: Roelands, or the rig's law."""
     if "thick" in c.rig.laws:
         return np.asarray(c.rig.laws["thick"](c, warmer))
     level = np.log(c.viscosity) + 9.67
@@ -275,7 +271,7 @@ def sheared(c: Contact, viscosity: np.ndarray) -> np.ndarray:
 
 
 def film_stress(c: Contact, warmer: np.ndarray | float = 0.0) -> np.ndarray:
-    """Shear stress of the film (Pa), ``warmer`` kelvin above the oil temperature, by the law that the rig follows."""
+    """Shear stress of the film (Pa) by the rig's law, ``warmer`` kelvin above the oil temperature."""
     law = c.rig.laws.get("shear")
     return sheared(c, thick(c, warmer)) if law is None else np.asarray(law(c, warmer))
 
@@ -299,7 +295,7 @@ def record_friction(c: Contact) -> Contact:
 
 
 def friction_chain(press: Stage = press, lubricate: Stage = lubricate, record: Stage = record_friction) -> Chain:
-    """The stages from the oil to the reading, for contacts of one pressure law, film law and recorded quantity."""
+    """Stages from the oil to the reading for a pressure law, a film law and a recorded quantity."""
     return (
         ("oil", None),
         ("load", None),
@@ -333,7 +329,7 @@ def solid_of(table: Mapping[str, Any]) -> Solid:
 
 
 def surfaces_of(case: Case, first: str, second: str) -> dict[str, Any]:
-    """Moments of both surfaces together (readings by 3, SI) and shares of each, coated surfaces, and the coating."""
+    """Composite moments of both surfaces (readings by 3, SI), shares of each surface, coated surfaces, and coating."""
     units = np.array([1e-12, 1.0, 1e12])
     table = case.settings["surfaces"]
     moments = {name: np.array([s["m0_um2"], s["m2"], s["m4_per_um2"]]) * units for name, s in table.items()}
@@ -351,7 +347,7 @@ def surfaces_of(case: Case, first: str, second: str) -> dict[str, Any]:
 
 
 def calibrated(settings: Mapping[str, Any], z: np.ndarray) -> Calibration:
-    """The calibration z prior standard deviations off: boundary friction by addition, the others lognormal."""
+    """Calibration ``z`` prior standard deviations off: boundary friction by addition, the others lognormal."""
     priors = settings["uncertainty"]
     moved = {name: priors.get(name, 0.0) * shift for name, shift in zip(PRIORS, z)}
     factors = {name: float(np.exp(moved[name])) for name in PRIORS[1:]}
@@ -359,7 +355,7 @@ def calibrated(settings: Mapping[str, Any], z: np.ndarray) -> Calibration:
 
 
 def contact_model(settings: Mapping[str, Any], inputs: Callable[[], Inputs], chain: Chain) -> Model:
-    """The model of a rig whose contacts follow a chain."""
+    """Model of a rig with the given chain of its contacts."""
     return lambda z, acts: np.asarray(play(chain, start(inputs(), calibrated(settings, z)), acts).recorded)
 
 

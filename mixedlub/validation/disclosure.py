@@ -1,4 +1,4 @@
-"""What a film case discloses of its oil and film law, and how far calibration may move from it."""
+"""Disclosed oil and film law of a film case, and the prior spread of each."""
 
 from __future__ import annotations
 
@@ -26,27 +26,27 @@ LEVEL, STEEPNESS, BOW, VISCOSITY, COEFFICIENT, WARMTH, BEND, REGIME, EXPONENT = 
     "film_exponent",
 )
 LAW = {EXPONENT: 0.015}
-"""Relative: 0.67 of Hamrock and Dowson 1977 and 0.68 of Chittenden, Dowson, Dunn and Taylor 1985."""
+"""Relative spread: exponent 0.67 of Hamrock, Dowson 1977 and 0.68 of Chittenden, Dowson, Dunn, Taylor 1985."""
 OF_A_KNOWN_OIL, OF_AN_UNKNOWN_OIL = {REGIME: 0.5, **LAW}, {REGIME: 1.0, **LAW}
-"""And the share of the way from the first to Nijenbanning, Venner and Moes 1994."""
+"""Spreads of the law, with the fraction of the way from Hamrock-Dowson to Nijenbanning, Venner and Moes 1994."""
 NOT_GIVEN = {LEVEL: 1.0, STEEPNESS: 0.5, BOW: 0.04, COEFFICIENT: 0.35, WARMTH: 0.4, BEND: 0.25}
-"""An oil that nobody describes: logarithms, but for the relative fall of the coefficient over 100 K."""
+"""Oil without any description: spreads of logarithms; relative fall of the coefficient over 100 K."""
 NOMINAL = 0.3
-"""Relative, of viscosities that are those of a class of oils or of a label."""
+"""Relative, of viscosities taken from a class of oils or a label."""
 ACROSS = (STEEPNESS, BOW, WARMTH, BEND)
-"""What only readings at several temperatures are touched by."""
+"""Properties that matter only for readings at several temperatures."""
 MINERAL = Oil((40.0, 100.0), (55e-6, 6.6e-6), (19.9e-9, 14.8e-9), 865.0)
-"""The middle of the mineral oils that are drawn; only where calibration starts from."""
+"""Middle of the drawn mineral oils; only a starting point of calibration."""
 THINNEST, THICKEST = 0.4e-6, 1.0
 
 
 def _ordinate(kinematic: Any) -> np.ndarray:
-    """Of ASTM D341, viscosities in m2/s between the thinnest and the thickest."""
+    """Ordinate of ASTM D341, viscosities in m2/s clipped to the thinnest and the thickest."""
     return np.log10(np.log10(1e6 * np.clip(kinematic, THINNEST, THICKEST) + 0.7))
 
 
 def moved(oil: Oil, pivot: float, level: float, steepness: float) -> Oil:
-    """The oil as many times as viscous at the pivot (C) and as steep in the chart of ASTM D341.
+    """Oil with viscosity times ``level`` at the pivot (C) and slope times ``steepness`` in the chart of ASTM D341.
 
     >>> oil = moved(MINERAL, 40.0, 2.0, 1.0)
     >>> [round(1e6 * nu, 1) for nu in oil.kinematic]
@@ -60,7 +60,7 @@ def moved(oil: Oil, pivot: float, level: float, steepness: float) -> Oil:
 
 @dataclass(frozen=True)
 class Disclosed:
-    """A film rig with the oil that the case describes, and the prior standard deviation of each free property."""
+    """A film rig with the oil disclosed in the case, and the prior standard deviation of each free property."""
 
     rig: Inputs
     spreads: dict[str, float]
@@ -71,12 +71,12 @@ class Disclosed:
 
     @property
     def pivot(self) -> float:
-        """Temperature (C) about which an oil that is not given turns."""
+        """Pivot temperature (C) of an oil without data sheet."""
         return float(np.exp(np.mean(np.log(self.rig.temperature + KELVIN))) - KELVIN)
 
     @property
     def middle(self) -> float:
-        """Viscosity times speed in the middle of the programme, about which the film law turns."""
+        """Viscosity times speed in the middle of the programme, the pivot of the film law."""
         c = start(self.rig, Calibration())
         return float(np.exp(np.mean(np.log(c.viscosity * c.entrainment))))
 
@@ -97,14 +97,14 @@ class Disclosed:
         return self._tilted(c, float(np.log(by.get(WARMTH, 1.0))))
 
     def _tilted(self, c: Contact, more: float) -> Contact:
-        """The coefficient with another fall over 100 K, linear in temperature about the pivot."""
+        """Coefficient with another fall over 100 K, linear in temperature about the pivot."""
         low, high = c.rig.oil.pressure_viscosity_at(np.array([self.pivot, self.pivot + 100.0]))
         fall, place = high / low - 1, (c.temperature - self.pivot) / 100
         ratio = np.maximum(1 + (fall + more) * place, 0.05) / np.maximum(1 + fall * place, 0.05)
         return replace(c, pressure_viscosity=c.pressure_viscosity * ratio)
 
     def model(self, z: np.ndarray, acts: Sequence[Act]) -> np.ndarray:
-        """Films (nm) by a law between the regression and that of all regimes."""
+        """Films (nm) by a law between the regression formula and the formula of all regimes."""
         by = self.factors(z)
         way, change = float(np.log(by[REGIME])), SPEED_EXPONENT * (by[EXPONENT] - 1)
         law = partial(ball_film_between, way=way, change=change, middle=self.middle)
@@ -112,7 +112,7 @@ class Disclosed:
 
 
 def with_data_sheet(rig: Inputs, viscosity: float, coefficient: float) -> Disclosed:
-    """An oil by its data sheet."""
+    """Rig with the data sheet of its oil."""
     return Disclosed(rig, {VISCOSITY: viscosity, COEFFICIENT: coefficient, **OF_A_KNOWN_OIL})
 
 
@@ -122,7 +122,7 @@ def _spreads(free: Sequence[str], celsius: np.ndarray) -> dict[str, float]:
 
 
 def without_data_sheet(rng: np.random.Generator, true: Inputs) -> tuple[Disclosed, dict[str, Any]]:
-    """The rig with a default oil or with nominal viscosities only, and the sections of the case that state those."""
+    """Rig with a default oil or with nominal viscosities only, and the sections of the case that state them."""
     if pick(rng, (True, False)):
         free = _spreads((LEVEL, STEEPNESS, BOW, COEFFICIENT, WARMTH, BEND), true.temperature)
         return Disclosed(replace(true, oil=MINERAL), {**free, **OF_AN_UNKNOWN_OIL}), {}

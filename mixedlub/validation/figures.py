@@ -22,7 +22,7 @@ def _blank(width: float, height: float) -> Figure:
 
 
 def score_table(scores: Sequence[Score]) -> Figure:
-    """Every figure by tool, one column a tool, green where the goal is met and red where not."""
+    """Figures by tool, one column per tool, green if the goal is met and red if not."""
     from matplotlib.transforms import Bbox
 
     rows = scores[0].rows
@@ -53,7 +53,7 @@ def _shown(value: float) -> str:
 
 
 def _line(place: int) -> dict[str, Any]:
-    """A thick line for the first tool, thin ones for the others."""
+    """Line style: thick for the first tool, thin for the others."""
     return {"marker": "o", "lw": 2, "zorder": 3} if place == 0 else {"marker": ".", "lw": 1, "alpha": 0.7}
 
 
@@ -80,7 +80,7 @@ def reliability(scores: Sequence[Score]) -> Figure:
 
 
 def identification(scores: Sequence[Score]) -> Figure:
-    """Share of single effects named rightly against how visible they are."""
+    """Share of correctly named single effects against their visibility."""
     figure = _blank(6.2, 4.2)
     axes = figure.add_subplot()
     for place, one in enumerate(scores):

@@ -1,4 +1,4 @@
-"""Every published form of every effect: a list of them, and a battery in which each is dealt in turn."""
+"""List of all published forms of every effect, and a battery that deals each in turn."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from profiles.errors import InputError
 
 @dataclass(frozen=True)
 class Listed:
-    """One published form of an effect, as it is planted on each kind of rig."""
+    """A published form of an effect, as planted on each kind of rig."""
 
     effect: str
     source: str
@@ -29,12 +29,12 @@ class Listed:
 
     @property
     def within(self) -> tuple[str, ...]:
-        """Kinds on which the catalogue's law can become it."""
+        """Kinds on which the catalogue's law can become the form."""
         return tuple(kind for kind, form in self.on.items() if form.within)
 
 
 def every_form(kinds: Sequence[str] = tuple(KINDS), seed: int = 0) -> list[Listed]:
-    """All forms that are planted on rigs of these kinds, by effect and source; those that are only rivals left out."""
+    """Forms planted on rigs of the kinds, by effect and source; forms that are only rivals are left out."""
     found: dict[tuple[str, str], dict[str, Form]] = {}
     for kind in kinds:
         for form in (form for rig in drawn_rigs(kind, seed) for form in rig.forms if form.rarity > 0):
@@ -43,7 +43,7 @@ def every_form(kinds: Sequence[str] = tuple(KINDS), seed: int = 0) -> list[Liste
 
 
 def plan_forms(seed: int, cases: int, kinds: Sequence[str] = tuple(KINDS)) -> list[Order]:
-    """The orders of a battery of single effects that goes through every form, each on one of its kinds of rig."""
+    """Orders of a battery of single effects that covers every form, each on one of its kinds of rig."""
     listed = every_form(kinds)
     if cases < len(listed):
         raise InputError(f"a battery of every form has at least {len(listed)} cases", where="cases", value=cases)

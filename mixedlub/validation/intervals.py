@@ -6,7 +6,7 @@ import numpy as np
 
 
 def reduced(values: np.ndarray, weights: np.ndarray, reduction: str) -> float:
-    """Weighted mean of values, or their median or largest."""
+    """Weighted mean, median or maximum of the values."""
     if not len(values):
         return float("nan")
     if reduction == "median":
@@ -15,10 +15,10 @@ def reduced(values: np.ndarray, weights: np.ndarray, reduction: str) -> float:
 
 
 def interval(values: np.ndarray, weights: np.ndarray, reduction: str) -> tuple[float, float]:
-    """90 % interval: Wilson's for a share, else by bootstrap over cases.
+    """90 % interval: Wilson's for a share, otherwise by bootstrap over cases.
 
-    A bootstrap of nothing but hits has no width. Errors in the readings of one case are correlated, which Wilson's
-    interval ignores: where cases count for several, the interval is the hull of both.
+    A bootstrap of hits alone has zero width. Wilson's interval ignores the correlation of errors within a case: if
+    cases count for several readings, the interval is the hull of both.
     """
     if reduction != "share":
         return _bootstrap(values, weights, reduction)

@@ -1,4 +1,4 @@
-"""What is measured of one answered case: pure functions of its truth and its answer."""
+"""Measures of an answered case: pure functions of its truth and its answer."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ANSWERS_WITHOUT_EFFECT = frozenset({"none", "unknown"})
 
 
 def log_score(truth: Truth, answer: Answer, ids: Sequence[str]) -> float:
-    """Sum over ids of the log probability given to what is so (in the label or not), floored at 1e-4."""
+    """Sum over ids of the log probability of the true state (in the label or not), floored at 1e-4."""
     total = 0.0
     for name in ids:
         p = float(np.clip(answer.probabilities.get(name, FLOOR), FLOOR, 1 - FLOOR))
@@ -39,7 +39,7 @@ def auroc(score: np.ndarray, positive: np.ndarray) -> float:
 
 
 def location_auroc(truth: Truth, answer: Answer) -> float:
-    """AUROC of |mismatch_z| against readings off by more than one sd; nan where a class has under a tenth."""
+    """AUROC of |mismatch_z| against readings off by more than one sd; nan if a class has under a tenth."""
     scored = ~truth.withheld & ~np.isin(truth.run, list(truth.outliers))
     displaced = np.abs(truth.off[scored]) > 1
     if not 0.1 <= displaced.mean() <= 0.9:
@@ -49,7 +49,7 @@ def location_auroc(truth: Truth, answer: Answer) -> float:
 
 
 def _withheld(truth: Truth, answer: Answer, column: np.ndarray) -> np.ndarray:
-    """A column of the predictions at the withheld runs, in the order of the truth; none may be missing."""
+    """A column of the predictions at the withheld runs, in the order of the truth; an error if runs are missing."""
     index = {int(run): i for i, run in enumerate(answer.run)}
     wanted = truth.run[truth.withheld]
     missing = [int(run) for run in wanted if int(run) not in index]
@@ -59,14 +59,14 @@ def _withheld(truth: Truth, answer: Answer, column: np.ndarray) -> np.ndarray:
 
 
 def held_out(truth: Truth, answer: Answer) -> tuple[float, float]:
-    """Rms error in sds at withheld conditions against the noise-free truth: of predicted, of calibrated."""
+    """Rms errors (sd) of predicted and calibrated values at withheld conditions against the noise-free truth."""
     target, sd = truth.values[truth.withheld], truth.sd[truth.withheld]
     errors = [(_withheld(truth, answer, column) - target) / sd for column in (answer.predicted, answer.calibrated)]
     return float(np.sqrt(np.mean(errors[0] ** 2))), float(np.sqrt(np.mean(errors[1] ** 2)))
 
 
 def coverage(truth: Truth, answer: Answer) -> float:
-    """Chance that a new reading at the withheld conditions falls into the 90 % predictive intervals."""
+    """Probability that a new reading at the withheld conditions lies in the 90 % predictive intervals."""
     from scipy.special import ndtr
 
     target, sd = truth.values[truth.withheld], truth.sd[truth.withheld]
@@ -75,51 +75,51 @@ def coverage(truth: Truth, answer: Answer) -> float:
 
 
 def physics(label: frozenset[str], truth: Truth) -> frozenset[str]:
-    """What an explanation says is missing: all of it but the laws, where the rig follows other laws."""
+    """Missing physics named by an explanation: without laws if the rig follows other laws."""
     if not truth.laws:
         return label
     return label - LAWS or frozenset({"none"})
 
 
 def right(truth: Truth, answer: Answer) -> bool:
-    """The verdict is the truth, beside whatever laws."""
+    """Whether the verdict is the truth, laws aside."""
     return physics(answer.verdict, truth) == truth.label
 
 
 def tied(truth: Truth, answer: Answer) -> bool:
-    """The verdict is the truth, or the truth is among the explanations tied with it, beside whatever laws."""
+    """Whether the verdict, or an explanation tied with it, is the truth, laws aside."""
     return right(truth, answer) or truth.label in [physics(one, truth) for one in answer.tied]
 
 
 def together(truth: Truth, answer: Answer) -> bool:
-    """The verdict, or one explanation tied with it, names every effect that is hidden."""
+    """Whether the verdict, or an explanation tied with it, names every planted effect."""
     return any(truth.label <= one for one in (answer.verdict, *answer.tied))
 
 
 def laws_named(laws: frozenset[str], truth: Truth, answer: Answer) -> float:
-    """Share of some laws that the verdict or a tied explanation has, without one that the rig does not follow."""
+    """Share of the laws named by the verdict or a tied explanation; explanations with a wrong law do not count."""
     honest = [one & LAWS for one in (answer.verdict, *answer.tied) if one & LAWS <= truth.laws]
     return len(laws & frozenset().union(*honest)) / len(laws)
 
 
 def false_law(truth: Truth, answer: Answer) -> bool:
-    """The verdict has a law that the rig does not follow."""
+    """Whether the verdict has a law that the rig does not follow."""
     return bool(answer.verdict & LAWS - truth.laws)
 
 
 def false_physics(truth: Truth, answer: Answer) -> bool:
-    """An effect that is not there has a probability of 0.9 or more."""
+    """Whether an effect that is not planted has a probability of 0.9 or more."""
     so = truth.label | LAWS | ANSWERS_WITHOUT_EFFECT
     return any(p >= 0.9 for name, p in answer.probabilities.items() if name not in so)
 
 
 def unknown_suspected(truth: Truth, answer: Answer) -> bool:
-    """Something unknown is more probable than not."""
+    """Whether an unknown effect is more probable than not."""
     return answer.probabilities.get("unknown", 0.0) > 0.5
 
 
 def crossed(truth: Truth, answer: Answer) -> bool:
-    """An instrument fault called physics, or physics called an instrument fault."""
+    """Whether an instrument fault is called physics, or physics an instrument fault."""
     named = physics(answer.verdict, truth) - ANSWERS_WITHOUT_EFFECT
     if truth.label <= MEASUREMENT:
         return bool(named - MEASUREMENT)
@@ -127,12 +127,12 @@ def crossed(truth: Truth, answer: Answer) -> bool:
 
 
 def spoiled(truth: Truth) -> int:
-    """How many readings were spoiled."""
+    """Number of spoiled readings."""
     return len(truth.outliers)
 
 
 def clean(truth: Truth) -> int:
-    """How many of the readings handed over are good."""
+    """Number of good readings in the recording."""
     return int((~truth.withheld).sum()) - len(truth.outliers)
 
 

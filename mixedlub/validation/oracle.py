@@ -1,7 +1,6 @@
-"""A reference: what is found in the noisy recordings with the generator's own laws.
+"""Reference diagnosis of the noisy recordings with the generator's laws.
 
-Its evidence is coarse (chi-square and half a log reading a knob), and so is its model of unknown effects: a tool with
-a better evidence can score higher.
+Evidence (chi-square and half a log reading a knob) and model of unknown effects are coarse: a tool may score higher.
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ def _evidence(fit: Fit, forms: Sequence[Form], count: int) -> float:
 
 @dataclass(frozen=True)
 class Suspect:
-    """Some effects in the forms that fit best, their fit and its evidence."""
+    """Some effects in the forms that fit best, with fit and evidence."""
 
     forms: tuple[Form, ...]
     fit: Fit
@@ -39,7 +38,7 @@ class Suspect:
 
 
 def _searched(fitted: Fitted) -> dict[Names, Suspect]:
-    """None, each single effect, and pairs with the leaders where none of these fits."""
+    """No effect, single effects, and pairs with the leading effects if no single effect fits."""
     rows = fitted.good
     target, count = Target(fitted.rig, rows, fitted.recorded[rows], fitted.sd[rows]), len(rows)
 
@@ -67,12 +66,12 @@ def _searched(fitted: Fitted) -> dict[Names, Suspect]:
 
 
 def _unknown_nats(count: int) -> float:
-    """Evidence of something outside the laws: nothing left, paid for by a smooth map of 12 numbers."""
+    """Evidence of an unknown effect: zero residual at the price of a smooth map of 12 numbers."""
     return -0.5 * count - 0.5 * 12 * np.log(count) + UNKNOWN_NATS
 
 
 def oracle(folder: Path, out: Path) -> None:
-    """Answers a case with the generator's laws; drops the outliers of the best fit and searches again."""
+    """Answer a case with the generator's laws; drop the outliers of the best fit and search again."""
     fitted = recalibrate(folder)
     for last in (False, True):
         suspects = _searched(fitted)

@@ -1,8 +1,7 @@
-"""Batteries of poor recordings: what is wrong with them, and how that is dealt and scored.
+"""Batteries of poor recordings: flaws, their distribution over the cases, and their score.
 
-Effects are as visible at the true noise as in the other batteries. What is wrong is how the recording was made or
-described: too few readings, noise that is not independent or not Gaussian, standard deviations that are estimates, a
-calibration farther off than its stated uncertainty, and three effects at once.
+Effects are as visible at the true noise as in the other batteries. The recording or its description is flawed: too few
+readings, correlated or non-Gaussian noise, estimated sds, a calibration beyond its stated sd, or three effects.
 """
 
 from __future__ import annotations
@@ -43,16 +42,16 @@ FLAWS = {
     THREE: "three effects that act after different stages",
 }
 SHARES = dict(zip(CLASSES, (0.28, 0.42, 0.08, 0.06, 0.16)))
-"""Of the classes, where two effects at most act."""
+"""Shares of the classes among cases with at most two effects."""
 TRIPLE = "triple"
 MOST_DRAWS = 20
-"""Draws of three effects, over the number wanted."""
+"""Largest number of draws of three effects, over the number wanted."""
 SECOND_FLAW = 4
 """Every fourth case with at most two effects has a second flaw."""
 
 
 def _triple(rng: np.random.Generator, partners: Sequence[Partners]) -> tuple[str, ...] | None:
-    """Three effects of which the first goes with both others, and which act after different stages."""
+    """Three effects after different stages; the first forms a pair with each of the others."""
     first, seconds, _ = partners[int(rng.integers(len(partners)))]
     more = [one for name, some, _ in partners if name == first for one in some]
     more += [name for name, some, _ in partners if first in some]
@@ -67,7 +66,7 @@ def _triple(rng: np.random.Generator, partners: Sequence[Partners]) -> tuple[str
 
 
 def _triples(rng: np.random.Generator, drawn: Mapping[str, Sequence[Rig]], count: int) -> list[Order]:
-    """Cases with three effects, on those of some kinds of rig that are open to all three."""
+    """Cases with three effects, on rigs open to all three."""
     orders: list[Order] = []
     for _ in range(MOST_DRAWS * count):
         if len(orders) == count:
@@ -100,7 +99,7 @@ def _orders(rng: np.random.Generator, family: Family, seed: int, cases: int) -> 
 
 
 def plan_poor(seed: int, cases: int, kinds: Sequence[str]) -> list[Order]:
-    """The orders of a battery of poor recordings, half of them gears and discs; each has one flaw or two."""
+    """Orders of a battery of poor recordings, half of them gears and discs; each has one or two flaws."""
     chosen = families(kinds)
     least = fewest(kinds) + len(chosen)
     if cases < least:

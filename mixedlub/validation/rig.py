@@ -1,4 +1,4 @@
-"""What every rig has: a programme, a base model that calibration moves, and the effects that can be planted on it."""
+"""Common parts of all rigs: programme, base model with calibration, and effects that can be planted."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ LAWS = frozenset({FILM, ASPERITIES, BALANCE, MIXTURE, SHEAR, SHARING, PRESSURE, 
 
 @dataclass(frozen=True)
 class Knob:
-    """One parameter of a planted law: bounds of a rival fit (``low`` to ``high``) and the range that is drawn."""
+    """A parameter of a planted law: bounds of a rival fit (``low`` to ``high``) and the drawn range."""
 
     name: str
     low: float
@@ -38,7 +38,7 @@ def strength(low: float, high: float, typical: tuple[float, float] = (0.7, 1.4))
 
 @dataclass(frozen=True)
 class Act:
-    """One effect at work: the stage after which it acts, and a function of the state alone."""
+    """An acting effect: the stage after which it acts, and a function of the state alone."""
 
     stage: str
     act: Callable[[Any], Any]
@@ -46,10 +46,9 @@ class Act:
 
 @dataclass(frozen=True)
 class Law:
-    """A published law of the step ``id``; ``enter`` puts it in the place of the base law of a state.
+    """A published law of the step ``id``; ``enter`` replaces the base law of a state.
 
-    ``needs`` are steps that must follow another law too, ``bars`` those that must not. An ``average`` of traction over
-    the contact is marked as one.
+    Steps with another law: ``needs`` required, ``bars`` excluded. ``average``: mean of traction over the contact.
     """
 
     id: str
@@ -62,7 +61,7 @@ class Law:
     average: bool = False
 
     def fits(self, steps: Collection[str]) -> bool:
-        """Whether the law can be followed where these steps follow another law."""
+        """Whether the law is compatible with other laws at the given steps."""
         return self.needs <= set(steps) and not self.bars & set(steps)
 
     def act(self, values: Mapping[str, float]) -> Act:
@@ -70,19 +69,18 @@ class Law:
 
     @property
     def middle(self) -> dict[str, float]:
-        """Its knobs at the middle of what is drawn."""
+        """Knobs of the law at the middle of their drawn ranges."""
         return {knob.name: 0.5 * sum(knob.typical) for knob in self.knobs}
 
 
 @dataclass(frozen=True)
 class Form:
-    """One published form of an effect, acting after the stage ``hook``; its first knob is the strength, absent at zero.
+    """A published form of an effect after the stage ``hook``; its first knob is the strength, zero without the effect.
 
-    ``rarity`` is the weight of the effect when effects are drawn; a form of rarity 0 is only a rival.
-    ``rank`` is how general a form is: a form that contains simpler effects as special cases is no rival to them.
-    ``rigid`` forms have one size, as a miscounted fringe has. ``within``: the catalogue's law of the same
-    effect can become this one, at some values of its parameters or in their limit. ``holds`` is the range that its
-    source states; the formula is in the docstring of the law.
+    ``rarity``: weight of the effect in the draw; 0 for a rival only. ``rank``: generality; a form that contains simpler
+    effects as special cases is not a rival of them. ``rigid``: fixed size, such as a miscounted fringe. ``within``: the
+    catalogue's law of the effect can become this form, at some parameter values or in a limit. ``holds``: range stated
+    by the source; the formula is in the docstring of the law.
     """
 
     id: str
@@ -118,19 +116,18 @@ class Case:
 
 
 Model = Callable[[np.ndarray, Sequence[Act]], np.ndarray]
-"""Noise-free readings at a calibration (in prior standard deviations) with effects at work."""
+"""Noise-free readings at a calibration (in prior standard deviations) under the acting effects."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Rig(Case):
-    """A rig and its programme; ``names`` are the calibrations that ``model`` takes, ``theta`` gives their values.
+    """A rig and its programme; ``names``: calibrated inputs of ``model``; ``theta``: their values.
 
-    ``fine`` is the model on the finer grid of which recordings are made, if it has one. ``planted`` gives the readings
-    where nature follows another base law than the model's, which no calibration quite becomes. ``settle`` completes
-    columns that depend on the readings, such as the fringe order an instrument counts. ``floor`` are the bounds
-    of the absolute part of the noise over its relative part at the ``quantile`` of the readings.
-    Where nature follows other published laws than the model's, ``followed`` puts them in place.
-    A ``signed`` quantity may be negative. No reading falls below the share ``least`` of the true value, if it has one.
+    ``fine``: model on a finer grid for recordings, if any. ``planted``: readings under another base law, which no
+    calibration fully reproduces. ``followed``: published laws that replace laws of the model. ``settle``: columns that
+    depend on the readings, such as counted fringe orders. ``floor``: bounds of absolute over relative noise at the
+    ``quantile`` of the readings. ``signed``: negative readings allowed. ``least``: lowest reading over the true value,
+    if any.
     """
 
     names: tuple[str, ...]
@@ -159,14 +156,14 @@ class Rig(Case):
 
     @property
     def nature(self) -> Rig:
-        """The same rig with a model that follows the laws that nature follows."""
+        """The same rig with the true laws in its model."""
         if not self.followed:
             return self
         model, laws = self.model, self.followed
         return replace(self, model=lambda z, acts: model(z, [*laws, *acts]), followed=())
 
     def records(self, z: np.ndarray, acts: Sequence[Act]) -> np.ndarray:
-        """What the rig reads without noise."""
+        """Noise-free readings of the rig."""
         return self.model(z, [*self.followed, *acts]) if self.planted is None else self.planted(acts)
 
 
@@ -174,7 +171,7 @@ Chain = Sequence[tuple[str, Callable[[Any], Any] | None]]
 
 
 def play(chain: Chain, state: Any, acts: Sequence[Act]) -> Any:
-    """The state after all stages, each followed by the effects that act after it."""
+    """State after all stages, each followed by its effects."""
     for name, law in chain:
         state = state if law is None else law(state)
         for effect in acts:

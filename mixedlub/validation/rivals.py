@@ -11,14 +11,14 @@ import numpy as np
 from mixedlub.validation.rig import Form, Rig
 
 STEP = 1e-4
-"""Of forward differences, in prior standard deviations: truncation and rounding errors are about equal."""
+"""Step of forward differences, in prior standard deviations: truncation and rounding errors are about equal."""
 FARTHEST = 6.0
 """Bound of the calibration in prior standard deviations, which no fit reaches."""
 
 
 @dataclass(frozen=True)
 class Target:
-    """What is to be explained: values of some ``rows`` of a rig's readings, and their standard deviation."""
+    """Target of a fit: values of some ``rows`` of a rig's readings, and their standard deviation."""
 
     rig: Rig
     rows: np.ndarray
@@ -69,7 +69,7 @@ def descend(
 
 
 def guesses(forms: Sequence[Form]) -> list[np.ndarray]:
-    """Knob values to start from: strengths over a factor of 30, of both signs, shapes at the ends of their range."""
+    """Starting values of the knobs: strengths over a factor of 30, of both signs, shapes at the ends of their range."""
     choices: list[list[float]] = []
     for knob in (knob for form in forms for knob in form.knobs):
         low, high = knob.typical
@@ -85,7 +85,7 @@ def guesses(forms: Sequence[Form]) -> list[np.ndarray]:
 def promising(
     starts: Sequence[np.ndarray], residual: Residual, origin: np.ndarray, slopes: np.ndarray, count: int = 3
 ) -> list[np.ndarray]:
-    """The starts of least chi-square when the calibration may move linearly (``slopes``) about ``origin``."""
+    """Starts of least chi-square after a linear change of the calibration (``slopes``) about ``origin``."""
     basis, _ = np.linalg.qr(slopes)
     chi_squares = []
     for start in starts:
@@ -95,7 +95,7 @@ def promising(
 
 
 def sensitivity(rig: Rig, z: np.ndarray) -> np.ndarray:
-    """Change of the base readings (readings by calibrations) with one prior standard deviation of each."""
+    """Derivative of the base readings by the calibrations, in prior standard deviations (readings by calibrations)."""
     at = rig.model(z, ())
     return np.array([(rig.model(z + STEP * e, ()) - at) / STEP for e in np.eye(len(z))]).T
 
@@ -110,10 +110,7 @@ def visibility(extra: np.ndarray, sd: np.ndarray, slopes: np.ndarray) -> float:
 
 
 def best(target: Target, forms: Sequence[Form], z: np.ndarray, knobs: Sequence[dict[str, float]] = ()) -> Fit:
-    """Best fit of some forms from a calibration, knobs free in their ranges.
-
-    ``knobs`` are the start of the first forms; the others start from several guesses.
-    """
+    """Best fit of some forms, knobs free in their ranges: first forms from ``knobs``, others from several guesses."""
     rig, count = target.rig, len(target.rig.names)
     every = [knob for form in forms for knob in form.knobs]
     unit = np.array([max(abs(k.typical[1]), 1e-9) if k.name == "strength" else k.high - k.low for k in every])
@@ -139,7 +136,7 @@ def best(target: Target, forms: Sequence[Form], z: np.ndarray, knobs: Sequence[d
 
 
 def nearest(rig: Rig) -> np.ndarray:
-    """The calibration at which the model is closest to what the rig reads when nothing is missing."""
+    """Calibration of the model closest to the rig's readings without effects."""
     start = np.zeros(len(rig.names))
     values = rig.records(start, ())
     return best(Target(rig, np.arange(len(values)), values, 0.01 * values), (), start).z
@@ -153,10 +150,10 @@ def rivals(
     rank: int,
     exchanged: bool = True,
 ) -> dict[str, float]:
-    """Least chi-square of none, of every single effect but the truth, and of a pair with one of the two exchanged.
+    """Least chi-square without effects, of other single effects, and of a pair with one of its two effects exchanged.
 
-    Each effect is tried in all its forms. Forms more general than the truth, beyond ``rank``, contain it as a
-    special case and are no rivals. Unless ``exchanged``, a pair has single effects alone as rivals.
+    Each effect is tried in all its forms. Forms more general than the truth, beyond ``rank``, contain it as a special
+    case and are no rivals. Unless ``exchanged``, a pair has single effects alone as rivals.
     """
     none = best(target, (), z)
     chi_squares = {"none": none.chi_square}

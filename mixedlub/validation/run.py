@@ -1,4 +1,4 @@
-"""The whole validation in one call: deal a battery, have it diagnosed, score it next to the baselines."""
+"""Complete validation in one call: deal a battery, have it diagnosed, score it next to the baselines."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ BROKEN, REFUSED = "broken.txt", "refused.txt"
 
 
 def quiet(stage: str, done: int, total: int) -> None:
-    """Progress to nobody."""
+    """Report no progress."""
 
 
 @dataclass(frozen=True)
 class Steady:
-    """A diagnosis that leaves its error as the answer to a case that it refuses or breaks down on."""
+    """A diagnosis that writes its error as the answer to a case that it refuses or breaks down on."""
 
     diagnose: Diagnose
 
@@ -52,7 +52,7 @@ class Steady:
 
 
 def unsealed(case: Path, into: Path) -> Path:
-    """A copy of a case folder without its truth: what a tool is given."""
+    """Copy of a case folder without its truth, for the tool under test."""
     target = into / case.name
     if not target.exists():
         aside = into / f".{case.name}"
@@ -63,7 +63,7 @@ def unsealed(case: Path, into: Path) -> Path:
 
 
 def answer(diagnose: Diagnose, case: Path, out: Path) -> str:
-    """Have one case answered and timed, unless it was before; the answer appears whole or not at all."""
+    """Have a case answered and timed unless already answered; the answer appears whole or not at all."""
     if (out / "seconds.json").exists():
         return case.name
     aside = out.parent / f".{out.name}"
@@ -78,7 +78,7 @@ def answer(diagnose: Diagnose, case: Path, out: Path) -> str:
 
 
 def answer_all(diagnose: Diagnose, cases: Sequence[Path], out: Path, jobs: int, name: str, progress: Progress) -> None:
-    """Answers of one tool to all cases, in ``jobs`` processes (the tool must then be importable)."""
+    """Have all cases answered by one tool, in ``jobs`` processes (the tool must then be importable)."""
     out.mkdir(parents=True, exist_ok=True)
     if jobs == 1:
         for done, case in enumerate(cases):
@@ -105,10 +105,9 @@ def validate(
 ) -> dict[str, Score]:
     """Deal, diagnose, score and draw into ``out``; an interrupted run is resumed.
 
-    ``dealt`` gives the orders of the cases: the base model's rigs, or those of other laws.
-
-    Returns the scores that ``judge`` writes. ``baselines`` are answered too, and last the oracle that knows the
-    planted laws, on kinds of rig that their case folder describes completely.
+    ``dealt`` gives the orders of the cases: rigs of the base model, or of other laws. Returns the scores written by
+    ``judge``. ``baselines`` are answered too, and last the oracle that knows the planted laws, on kinds of rig that
+    their case folder describes completely.
     """
     if baselines:
         if not set(kinds) <= set(RIGS):
@@ -148,9 +147,8 @@ def _collected(out: Path, truths: Sequence[Truth]) -> tuple[dict[str, list[Pair]
 def judge(out: Path, sealed: Sequence[Path], rivals: dict[str, Path] | None = None) -> dict[str, Score]:
     """Scores of the answers: over all cases as ``all``, by kind, and of each rival over all by its name.
 
-    A case on which the tool broke down is answered wrong, one that it refused is not counted. Writes ``score.json``,
-    ``score_NAME.json`` for each of the others, ``score.txt`` with all figures, the counts by kind and by form and the
-    wrong answers, and the figures as SVG.
+    A breakdown counts as a wrong answer, a refused case is not counted. Writes ``score.json``, ``score_NAME.json`` for
+    each of the others, ``score.txt`` with all figures, counts by kind and form and wrong answers, and SVG figures.
     """
     truths = [read_truth(case) for case in sealed]
     ids = sorted({name for truth in truths for name in truth.candidates})
@@ -187,7 +185,7 @@ def judge(out: Path, sealed: Sequence[Path], rivals: dict[str, Path] | None = No
 
 
 def draw(folder: Path, scores: Sequence[Score]) -> None:
-    """Figures of the scores, the tool's first."""
+    """Draw the figures of the scores, the tool's first."""
     from mixedlub.validation import figures
 
     folder.mkdir(exist_ok=True)

@@ -1,4 +1,4 @@
-"""One case drawn at random: a rig, its calibration, planted effects, and the noise at which they are visible."""
+"""A random case: rig, calibration, planted effects, and the noise that gives their visibility."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from mixedlub.validation.worlds.misfit import CLEAR, Seen
 from profiles.errors import InputError
 
 VISIBLE = {"clear": (16.0, 30.0), "faint": (7.0, 11.0), "pair": (10.0, 24.0)}
-"""Root of the chi-square that recalibration leaves of an effect; of a pair, that of the weaker one."""
+"""Root of the chi-square of an effect after recalibration; of the weaker effect of a pair."""
 CLOSE_ENOUGH = 0.25
-"""Logarithm of a visibility over the one ordered below which a sample is taken."""
+"""Logarithm of visibility over its goal below which a sample is accepted."""
 TRIES = 12
-"""Samples among which the nearest to the order is taken."""
+"""Number of samples; the nearest to the order is taken."""
 TRIES_FOR_LAW = 40
-"""Samples among which one whose first law is off the base model is looked for."""
+"""Largest number of samples tried for a first law that deviates from the base model."""
 MOST_RIGS = 400
-"""Rigs that are drawn at most to find one."""
+"""Largest number of rigs drawn for a case."""
 SMALL_CASE_SIZES = (20, 41)
 """Readings of a small case."""
 FEW, LASTING, HEAVY, SD_ESTIMATED, MIS_SET = (
@@ -34,18 +34,17 @@ FEW, LASTING, HEAVY, SD_ESTIMATED, MIS_SET = (
     "estimated sds",
     "mis-set calibration",
 )
-"""What may be wrong with a recording."""
+"""Possible flaws of a recording."""
 FEW_SIZES = (12, 25)
-"""Readings of a case with few of them."""
+"""Number of readings of a case with few readings."""
 
 
 @dataclass(frozen=True)
 class Order:
-    """What one case is to be: kind, class, planted effects, and how visible they are.
+    """Order of a case: kind, class, planted effects, and their visibility.
 
-    ``laws`` are the steps at which the rig follows another law; a ``strong`` first one is none that recalibration of
-    the base model could hide. ``flaws`` are what is wrong with the recording. ``law`` is the form of a single effect by
-    the name of its law, any form if empty.
+    ``laws``: steps at which the rig follows another law; ``strong``: recalibration of the base model must not hide the
+    first law. ``flaws``: defects of the recording. ``law``: name of the law of a single effect, any if empty.
     """
 
     name: str
@@ -63,13 +62,13 @@ class Order:
 
     @property
     def sizes(self) -> tuple[int, int] | None:
-        """Bounds of the number of readings, where the case has few."""
+        """Bounds of the number of readings of a case with few."""
         return FEW_SIZES if FEW in self.flaws else SMALL_CASE_SIZES if self.small else None
 
 
 @dataclass(frozen=True)
 class Sample:
-    """One case as drawn: rig, withheld readings, calibration, forms with their knobs, noise, visibility, laws."""
+    """A drawn case: rig, withheld readings, calibration, forms with their knobs, noise, visibility, laws."""
 
     rig: Rig
     hidden: np.ndarray
@@ -83,7 +82,7 @@ class Sample:
 
     @property
     def seen(self) -> Seen:
-        """The readings handed over, as the laws are compared on them."""
+        """Recorded readings for the comparison of laws."""
         sd = self.sd(self.rig.records(self.z, self.acts))
         rows = np.flatnonzero(~self.hidden)
         return Seen(self.rig, rows, self.z, sd[rows])
@@ -93,17 +92,17 @@ class Sample:
         return [form.hide(values) for form, values in zip(self.forms, self.knobs)]
 
     def sd(self, values: np.ndarray) -> np.ndarray:
-        """Standard deviation of readings of these values."""
+        """Standard deviation of readings with the values."""
         return np.asarray(np.sqrt((self.relative * values) ** 2 + self.absolute**2))
 
     @property
     def possible(self) -> bool:
-        """Whether an instrument could read this: only signed quantities are at or below zero but for their noise."""
+        """Whether an instrument could read the values: noise-free readings must be positive unless signed."""
         return self.rig.signed or bool(np.all(self.rig.records(self.z, self.acts) > 0))
 
 
 def sample_case(rng: np.random.Generator, order: Order) -> Sample:
-    """The sample nearest to the order; rigs that show no effect, or what nothing reads, are drawn again."""
+    """Sample nearest to the order; rigs without visible effect or with impossible readings are drawn again."""
     goal = float(rng.uniform(*VISIBLE["pair" if order.label == "pair" else order.level]))
 
     def far(sample: Sample) -> float:
@@ -124,7 +123,7 @@ def sample_case(rng: np.random.Generator, order: Order) -> Sample:
 
 
 def _rig_for(rng: np.random.Generator, order: Order) -> tuple[Rig, World, tuple[Form, ...]]:
-    """A rig on which the ordered effects can be at work, the laws that it follows, and one form of each effect."""
+    """A rig open to the ordered effects, its laws, and one form of each effect."""
     kind = KINDS[order.kind]
     draw = kind.draw_without_data_sheet if order.no_data_sheet and kind.draw_without_data_sheet else kind.draw
     for _ in range(MOST_RIGS):
@@ -160,7 +159,7 @@ def _scaled(form: Form, values: dict[str, float], factor: float) -> dict[str, fl
 def withhold(rng: np.random.Generator, rig: Rig, family: Family, sizes: tuple[int, int] | None = None) -> np.ndarray:
     """Readings to withhold: some at random and often a level of a condition or a stretch of time.
 
-    ``sizes`` bounds how many readings are handed over, the upper bound excluded; the others are withheld then.
+    ``sizes``: bounds of the number of recorded readings, the upper bound excluded; all others are then withheld.
     """
     count = len(rig.columns["run"])
     if sizes is not None:
@@ -188,7 +187,7 @@ def withhold(rng: np.random.Generator, rig: Rig, family: Family, sizes: tuple[in
 
 
 def _sample(rng: np.random.Generator, order: Order, goal: float) -> Sample:
-    """A rig with its noise, and strengths scaled, so that the effects are as visible as can be near the goal."""
+    """A rig with noise and strengths scaled for a visibility of the effects as near the goal as possible."""
     rig, world, forms = _rig_for(rng, order)
     family = family_of(order.kind)
     hidden = withhold(rng, rig, family, order.sizes)
@@ -244,7 +243,7 @@ def _visibility_of(
 
 
 def solve(measure: Callable[[float], float], goal: float, low: float, high: float, falling: bool) -> float:
-    """Log bisection of a monotone measure to the goal; the nearer end where it is out of reach."""
+    """Log bisection of a monotone measure to the goal; the nearer end if the goal is out of reach."""
     if not falling and abs(np.log(max(measure(1.0), 1e-9) / goal)) < 0.03:
         return 1.0
     for _ in range(12):

@@ -1,4 +1,4 @@
-"""Random draws that rigs share: oils, surfaces, levels of conditions, orders of a programme."""
+"""Random draws common to all rigs: oils, surfaces, levels of conditions, orders of a programme."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ UNCERTAINTY = {
     "eyring_stress": 0.15,
     "roughness": 0.04,
 }
-"""Prior standard deviations: that of boundary friction absolute, all others relative."""
+"""Prior standard deviations: absolute for boundary friction, relative for all others."""
 STEEL = {"youngs_modulus_GPa": [206.0, 206.0], "poisson_ratio": [0.3, 0.3]}
 FLOOR = (0.15, 1.2)
 """Absolute over relative part of the noise of gears and discs."""
@@ -28,7 +28,7 @@ FINISHES = ("mirror", "polished", "superfinished", "honed", "ground_fine", "grou
 
 
 def pick(rng: np.random.Generator, options: Sequence[Any]) -> Any:
-    """One of the options."""
+    """A random option."""
     return options[int(rng.integers(len(options)))]
 
 
@@ -47,13 +47,13 @@ def progress(count: int) -> np.ndarray:
 
 
 def repeated(columns: Mapping[str, np.ndarray], times: int) -> dict[str, np.ndarray]:
-    """Every condition ``times`` times over in the same order, with new run numbers."""
+    """Conditions repeated ``times`` times in the same order, with new run numbers."""
     count = len(next(iter(columns.values()))) * times
     return {"run": np.arange(1, count + 1), **{name: np.tile(column, times) for name, column in columns.items()}}
 
 
 def programme(names: Sequence[str], rows: Sequence[Sequence[Any]]) -> dict[str, np.ndarray]:
-    """Columns of some conditions in the order in which they are run, numbered."""
+    """Columns of conditions in run order, numbered."""
     return {
         "run": np.arange(1, len(rows) + 1),
         "sequence": progress(len(rows)),

@@ -1,4 +1,4 @@
-"""Scores of a tool's answers to a battery: every figure that the validation reports, with its goal."""
+"""Scores of a tool's answers to a battery: all reported figures with their goals."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def at_most(value: float) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class Row:
-    """One figure: its value, what it counts, a 90 % interval, and the goal."""
+    """A figure: its value, number of counts, 90 % interval, and goal."""
 
     key: str
     text: str
@@ -68,7 +68,7 @@ class Row:
 
     @property
     def aim(self) -> str:
-        """The goal in words, empty without one."""
+        """The goal in words, empty without a goal."""
         if self.goal is None:
             return ""
         low, high = self.goal
@@ -79,7 +79,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Score:
-    """All figures of one tool on one battery, and what its diagrams are drawn from."""
+    """All figures of one tool on one battery, with the data of its diagrams."""
 
     tool: str
     rows: tuple[Row, ...]
@@ -91,7 +91,7 @@ class Score:
         return next(row for row in self.rows if row.key == key)
 
     def above(self, rivals: Sequence[Score]) -> Score:
-        """The same score with the best log score among its rivals as the goal of its own."""
+        """The same score with the best rival log score as the goal of its log score."""
         best = max(rival["log_score"].value for rival in rivals)
         rows = [replace(row, goal=at_least(best)) if row.key == "log_score" else row for row in self.rows]
         return replace(self, rows=tuple(rows))
@@ -113,7 +113,7 @@ class Score:
 
 
 def _finite(value: object) -> object:
-    """The same data with what JSON does not have (nan, infinity) as null."""
+    """The same data with null for numbers outside JSON (nan, infinity)."""
     if isinstance(value, dict):
         return {key: _finite(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
@@ -124,7 +124,7 @@ def _finite(value: object) -> object:
 
 
 def _claims(pairs: Sequence[Pair]) -> list[tuple[float, bool]]:
-    """Every probability given, and whether what it speaks of is so: an effect, or a law that the rig follows."""
+    """All probabilities, with the truth of the claim: a planted effect, or a law followed by the rig."""
     return [
         (p, name in truth.label | truth.laws) for truth, answer in pairs for name, p in answer.probabilities.items()
     ]
@@ -136,9 +136,9 @@ def _ratio(hits: Sequence[float]) -> float:
 
 @dataclass(frozen=True)
 class Figure:
-    """How one row is made: which cases count, what is measured of each, how they are put together.
+    """Definition of a row: counted cases, measure of a case, reduction over cases.
 
-    A ``share`` counts what is so or not so: one thing a case, or ``weight`` of them.
+    A ``share`` counts yes-or-no outcomes: one a case, or ``weight`` of them.
     """
 
     key: str
@@ -167,7 +167,7 @@ def _clear(*groups: str) -> Callable[[Truth, Answer], bool]:
 
 
 def _formed(within: bool, clear: bool) -> Callable[[Truth, Answer], bool]:
-    """Single physical effects by whether the catalogue's laws can become the hidden ones."""
+    """Filter of single physical effects by whether the catalogue's laws can become the planted laws."""
     return lambda truth, answer: (
         truth.group == "single" and truth.within is within and (truth.identifiable or not clear)
     )
@@ -273,7 +273,7 @@ FIGURES: tuple[Figure, ...] = (
     Figure("slowest", "seconds a case, worst", _any, _seconds, at_most(30.0), "max"),
 )
 HALVES = (("right_within", "right_beyond"), ("tied_within", "tied_beyond"))
-"""Figures that are given where both halves count something."""
+"""Figures shown only if both halves have counts."""
 
 
 def _once(truth: Truth) -> int:
@@ -286,9 +286,9 @@ def score(
     ids: Sequence[str] = tuple(NAMED),
     figures: Sequence[Figure] = FIGURES,
 ) -> Score:
-    """Every figure of a battery answered by a tool; goals as the project set them.
+    """All figures of a battery answered by a tool, with the project's goals.
 
-    ``ids`` are the effects that the log score is summed over: those the battery can plant.
+    ``ids``: effects in the sum of the log score, all that the battery can plant.
     """
     if not pairs:
         raise InputError("there is no answered case to score", where=tool)
@@ -332,7 +332,7 @@ def _probability_rows(pairs: Sequence[Pair], ids: Sequence[str]) -> list[Row]:
 
 
 def _reliability(pairs: Sequence[Pair]) -> tuple[tuple[float, float, float, int], ...]:
-    """Bins of the probabilities given: lower edge, mean probability, share that was so, count."""
+    """Bins of the probabilities: lower edge, mean probability, share of true claims, count."""
     claims = _claims(pairs)
     claimed = np.array([p for p, _ in claims])
     so = np.array([float(is_so) for _, is_so in claims])
@@ -345,7 +345,7 @@ def _reliability(pairs: Sequence[Pair]) -> tuple[tuple[float, float, float, int]
 
 
 def _identification(pairs: Sequence[Pair]) -> tuple[tuple[float, float, float, int], ...]:
-    """Single effects by visibility: lower edge, mean visibility, share named rightly, count."""
+    """Single effects by visibility: lower edge, mean visibility, share named correctly, count."""
     singles = [(truth.visibility, right(truth, answer)) for truth, answer in pairs if truth.group in ONE]
     table = []
     for low, high in pairwise(VISIBILITIES):

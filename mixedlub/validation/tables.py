@@ -1,4 +1,4 @@
-"""Plain text about a scored battery: counts by kind of rig or flaw of the recording, and every wrong answer."""
+"""Plain text about a scored battery: counts by kind of rig or flaw of the recording, and all wrong answers."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ def _count(hits: Sequence[bool]) -> str:
 
 
 def counts(pairs: Mapping[str, Sequence[Pair]], title: str = "by kind") -> str:
-    """Counts of some groups of cases, a column each, one line a question."""
+    """Counts of groups of cases, one column a group, one line a question."""
 
     def of(some: Sequence[Pair], *groups: str, clear: bool = False) -> list[Pair]:
         return [(t, a) for t, a in some if t.group in groups and (t.identifiable or not clear)]
@@ -43,7 +43,7 @@ def counts(pairs: Mapping[str, Sequence[Pair]], title: str = "by kind") -> str:
 
 
 def by_form(pairs: Mapping[str, Sequence[Pair]]) -> str:
-    """How often each form of a single effect was named: right, right or tied, cases that are identifiable, cases."""
+    """Counts by form of a single effect: right, right or tied, identifiable cases, cases."""
     found: dict[tuple[str, str], list[Pair]] = {}
     for truth, answer in (pair for some in pairs.values() for pair in some):
         if truth.group in ("single", "measurement") and truth.forms:
@@ -65,7 +65,7 @@ def _named(label: frozenset[str]) -> str:
 
 
 def wrong(pairs: Mapping[str, Sequence[Pair]]) -> str:
-    """Every case whose verdict is not the truth: truth, verdict, other tied explanations, largest probabilities."""
+    """List of wrong verdicts: truth, verdict, other tied explanations, largest probabilities."""
     lines = ["verdicts that are not the truth (* identifiable; vis: visibility of the effect)"]
     for kind, some in pairs.items():
         for truth, answer in sorted(some, key=lambda pair: pair[0].case):

@@ -1,4 +1,4 @@
-"""A back-to-back gear rig whose test gears lose their heat to a separate oil, with known friction and idle loss."""
+"""Back-to-back gear rig with a separate oil for the test gears, known friction and known idle loss."""
 
 from __future__ import annotations
 
@@ -25,10 +25,7 @@ class Gear:
 
 
 def sliding_of_mesh(gear: Gear, phases: int = 400, slices: int = 60) -> float:
-    """Mean of the sliding speed over the speed of the base circle, weighted with load, that one base pitch sees.
-
-    The load is the same per length of contact line everywhere: counted line by line for each position of the mesh.
-    """
+    """Mean sliding speed over base-circle speed in one base pitch, at constant load per length of contact line."""
     beta = math.radians(gear.helix_angle)
     alpha = math.atan(math.tan(math.radians(gear.pressure_angle)) / math.cos(beta))
     base = [gear.module / math.cos(beta) * z / 2.0 * math.cos(alpha) for z in gear.teeth]
@@ -58,7 +55,7 @@ def sliding_of_mesh(gear: Gear, phases: int = 400, slices: int = 60) -> float:
 
 @dataclass(frozen=True)
 class Errors:
-    """Standard deviations of the meters, relative but for kelvin, and of what the evaluation must assume."""
+    """Standard deviations of the meters and of the assumptions of the evaluation; relative except for kelvin."""
 
     flow: float = 0.005
     flow_noise: float = 0.002
@@ -74,7 +71,7 @@ class Errors:
 
 @dataclass(frozen=True)
 class Bench:
-    """Conditions of the test programme, and the laws that its gears obey."""
+    """Conditions of the test programme, and the laws of its gears."""
 
     torques: tuple[float, ...] = (240.0, 480.0, 720.0, 960.0, 1160.0, 1357.0)
     speeds: tuple[float, ...] = (20.0, 40.0, 60.0, 80.0, 95.0)
@@ -88,7 +85,7 @@ class Bench:
 
 @dataclass(frozen=True)
 class Calorimeter:
-    """Meters of one rig with errors that stay the same over all readings."""
+    """Meters of a rig with errors that are constant over all readings."""
 
     flow_gain: float
     torque_gain: float
@@ -108,7 +105,7 @@ class Calorimeter:
     def heat(
         self, loss: float, flow: float, inlet: float, errors: Errors, random: np.random.Generator
     ) -> tuple[float, float, float]:
-        """Flow (L/min), temperature of inlet and outlet as read where the gears lose ``loss`` (W)."""
+        """Flow (L/min), inlet and outlet temperature as read at a gear loss ``loss`` (W)."""
         flow *= 1.0 + 0.01 * random.normal()
         # An ester at the inlet: 1000 kg/m3 at 15 degrees, less 0.07 % a kelvin.
         density = 1000.0 * (1.0 - 7e-4 * (inlet - 15.0)) * self.density_gain
@@ -121,7 +118,7 @@ READ = ("run", "torque_Nm", "speed_rpm", "oil_flow_L_min", "oil_inlet_temperatur
 
 
 def recorded(bench: Bench, gear: Gear, seed: int) -> tuple[Columns, list[dict[str, float]]]:
-    """Readings of the programme, and for each the loss, idle loss and mean friction behind it."""
+    """Readings of the programme, with the true loss, idle loss and mean friction of each."""
     random, e = np.random.default_rng(seed), bench.errors
     meters = Calorimeter.drawn(e, bench.shaft_share, random)
     sliding = bench.sliding * (1.0 + e.loss_factor * random.normal())

@@ -1,4 +1,4 @@
-"""Load-dependent losses of helical gears whose flanks rub by a local law, counted line by line over the mesh."""
+"""Load-dependent losses of helical gears under a local friction law, summed over contact lines and mesh positions."""
 
 from __future__ import annotations
 
@@ -22,10 +22,7 @@ MODULUS = 206e9 / 0.91
 
 @dataclass(frozen=True)
 class Bench:
-    """Conditions, the law, the factor of the superfinished flanks, and the relative scatter of the losses.
-
-    ``steps`` divide the mesh cycle and the face.
-    """
+    """Conditions, law, factor of superfinished flanks, relative scatter; ``steps`` of the mesh cycle and the face."""
 
     torques: tuple[float, ...] = (300.0, 700.0, 1350.0)
     speeds: tuple[float, ...] = (20.0, 45.0, 95.0)
@@ -38,7 +35,7 @@ class Bench:
 def local_friction(
     law: Mapping[str, float], speed_sum: float, pressure: float, nu: float, ra: float, ratio: float, radius: float
 ) -> float:
-    """Friction of one place: m/s, N/mm2, mm2/s, um, -, mm."""
+    """Local friction coefficient: m/s, N/mm2, mm2/s, um, -, mm."""
     film = law["c4"] * nu * nu + law["c5"] * nu + law["c6"]
     slip = ratio / ((ratio + law["c8"]) ** 2 + law["c9"])
     load = math.exp(law["c3"] * pressure)
@@ -48,10 +45,7 @@ def local_friction(
 def mesh_loss(
     gear: Gear, law: Mapping[str, float], torque: float, omega: float, nu: float, ra: float, steps: tuple[int, int]
 ) -> float:
-    """Power lost to friction (W), the mean over a mesh cycle; the load is the same per length of contact line.
-
-    ``steps`` are those of the cycle and of the face.
-    """
+    """Mean friction power (W) over a mesh cycle, load per contact length constant; ``steps``: of cycle and face."""
     phases, slices = steps
     beta = math.radians(gear.helix_angle)
     alpha = math.atan(math.tan(math.radians(gear.pressure_angle)) / math.cos(beta))
@@ -107,7 +101,7 @@ def recorded(bench: Bench, gear: Gear, seed: int) -> Columns:
 
 
 def calorimeter(exact: Columns, errors: Errors, seed: int, *, flow: float = 12.0, share: float = 0.065) -> Columns:
-    """What a calorimeter reads of exact losses and of the idle loss of each speed, at the errors of its meters."""
+    """Calorimeter readings of exact losses plus the idle loss of each speed, with the errors of the meters."""
     random = np.random.default_rng(seed)
     meters = Calorimeter.drawn(errors, share, random)
     sliding = 1.0 + errors.loss_factor * random.normal()

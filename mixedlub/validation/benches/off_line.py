@@ -1,7 +1,7 @@
-"""A slow gear rig with probes off the line of action: friction of the mesh moves a shaft on springy bearings.
+"""Slow gear rig with off-line-of-action probes: mesh friction moves a shaft on springy bearings.
 
-The force of friction is summed over the pairs in contact and passed to the shaft through the response of one mode, by
-harmonics of the mesh far beyond those that an evaluation keeps.
+The friction force is summed over the pairs in contact and passed to the shaft through the response of one mode, by
+harmonics of the mesh far beyond those used in an evaluation.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class Bench:
 
 
 def path() -> tuple[float, float, float]:
-    """Roll angles (deg) where contact begins, does not slide, and ends."""
+    """Roll angles (deg) of start of contact, pitch point and end of contact."""
     tip = 3.175 * (TEETH / 2.0 + 1.0)
     end = math.degrees(math.sqrt(tip**2 / BASE_RADIUS**2 - 1.0))
     pitch = math.degrees(math.tan(math.radians(20.0)))
@@ -59,13 +59,13 @@ def path() -> tuple[float, float, float]:
 
 
 def local_friction(bench: Bench, roll: float) -> float:
-    """Friction coefficient of a pair: it falls from the pitch point outwards."""
+    """Friction coefficient of a pair, falling from the pitch point outwards."""
     start, pitch, _ = path()
     return bench.friction * (1.0 - 0.35 * abs(roll - pitch) / (pitch - start))
 
 
 def friction_force(bench: Bench, roll: float, normal_gain: float) -> float:
-    """Sum over the pairs in contact (N), each with an equal share, positive where recess pulls."""
+    """Friction force summed over the pairs in contact (N), each with an equal share; positive in recess."""
     start, pitch, end = path()
     step = 360.0 / TEETH
     touching = [roll + k * step for k in (-2, -1, 0, 1, 2) if start < roll + k * step < end]

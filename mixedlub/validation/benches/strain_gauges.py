@@ -1,7 +1,7 @@
-"""A gear rig with strain gauges in the root fillets of two successive teeth, calibrated with known forces.
+"""Gear rig with strain gauges in the root fillets of two successive teeth, calibrated with known forces.
 
-Each tooth is a beam of constant section: bending and compression give the strains of its two fillets, and a part of
-them reaches the fillets of its neighbour. Lengths in mm, forces in N, strains in millionths, angles in degrees.
+Each tooth is a beam of constant section: bending and compression strain its two fillets and, in part, the fillets of
+its neighbour. Lengths in mm, forces in N, strains in millionths, angles in degrees.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ GAUGES = ("compressive_1_um_m", "tensile_1_um_m", "compressive_2_um_m", "tensile
 
 @dataclass(frozen=True)
 class Tooth:
-    """The unit-ratio gears of the NASA gear noise rig, and a tooth as a beam."""
+    """Unit-ratio gears of the NASA gear noise rig, with each tooth as a beam."""
 
     teeth: int = 28
     module: float = 3.175
@@ -34,7 +34,7 @@ class Tooth:
 
     @property
     def path(self) -> tuple[float, float, float]:
-        """Roll angles at which contact starts, rolls without sliding, and ends."""
+        """Roll angles of start of contact, pitch point and end of contact."""
         tip = self.module * (self.teeth / 2.0 + 1.0)
         end = math.degrees(math.sqrt(tip**2 / self.base_radius**2 - 1.0))
         pitch = math.degrees(math.tan(math.radians(20.0)))
@@ -72,7 +72,7 @@ class Tooth:
 
 @dataclass(frozen=True)
 class Errors:
-    """Standard deviations of the meters, of a vibration that is not synchronous, and of friction between two sides."""
+    """Standard deviations of the meters, of an asynchronous vibration, and of friction between two sides."""
 
     calibration_strain: float = 0.5
     calibration_force: float = 0.005
@@ -87,7 +87,7 @@ class Errors:
 class Bench:
     """Torque (N m), turns recorded, samples a turn, and the friction of the mesh.
 
-    ``step``: friction keeps its size up to the pitch point, where its direction changes.
+    ``step``: friction of constant magnitude up to the pitch point, where its direction changes.
     """
 
     torque: float = 71.7
@@ -99,7 +99,7 @@ class Bench:
 
 
 def calibration(bench: Bench, tooth: Tooth, random: np.random.Generator) -> Columns:
-    """Each tooth loaded alone every 2 degrees and at the pitch point: normal forces, then friction besides."""
+    """Calibration table: each tooth loaded alone every 2 degrees and at the pitch point, without and with friction."""
     columns: Columns = {n: [] for n in ("tooth", "roll_angle_deg", "normal_force_N", "friction_force_N", *GAUGES)}
     full = 71.7e3 / tooth.base_radius
     normal_gain, friction_gain = 1.0 + bench.errors.calibration_force * random.standard_normal(2)
@@ -137,7 +137,7 @@ def forces(bench: Bench, tooth: Tooth, roll: float, asymmetry: float) -> tuple[f
 
 
 def recorded(bench: Bench, tooth: Tooth, seed: int) -> tuple[Columns, Columns, dict[float, tuple[float, float]]]:
-    """Calibration, recording, and by roll angle the normal force and friction coefficient in single contact."""
+    """Calibration, recording, and by roll angle the true normal force and friction coefficient."""
     random, e = np.random.default_rng(seed), bench.errors
     calibrated = calibration(bench, tooth, random)
     zero = e.zero * random.standard_normal(4)

@@ -1,4 +1,4 @@
-"""Tables of the benches as text, as a data logger writes them."""
+"""Tables of the benches as text in the format of a data logger."""
 
 from __future__ import annotations
 

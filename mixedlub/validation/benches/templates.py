@@ -1,4 +1,4 @@
-"""Tables of the templates of evaluations: `python -m mixedlub.validation.benches.templates FOLDER` writes them."""
+"""Tables of the evaluation templates: `python -m mixedlub.validation.benches.templates FOLDER` writes them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from mixedlub.validation.benches import calorimetric, gear_losses, off_line, str
 from mixedlub.validation.benches.tables import as_csv
 
 SEED = 5
-"""Of the instrument errors of the templates."""
+"""Seed of the instrument errors of the templates."""
 
 
 def tables() -> dict[str, str]:
@@ -31,7 +31,7 @@ def tables() -> dict[str, str]:
 
 
 def main(folder: Path) -> None:
-    """Write them all."""
+    """Write all tables."""
     for name, text in tables().items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(text, encoding="utf-8")

@@ -1,6 +1,6 @@
-"""A traction machine: two crowned discs over a plan of loads, speeds, slide-to-roll ratios and temperatures.
+"""Traction machine: two crowned discs over a plan of loads, speeds, slide-to-roll ratios and temperatures.
 
-Friction obeys a law of powers and logarithms with scatter from reading to reading. Sliding may turn either way.
+Friction follows a law of powers and logarithms with scatter between readings. Sliding occurs in both directions.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ LAW = {"": -3.3, "p": 0.6, "s": 0.12, "u": -0.25, "v": -0.10, "ss": -0.06, "ps":
 
 @dataclass(frozen=True)
 class Bench:
-    """Levels of the plan, scatter of the logarithm, and how much larger friction is where the first disc is faster."""
+    """Levels of the plan, scatter of log friction, and the increase of log friction if the first disc is faster."""
 
     loads: tuple[float, ...] = (60.0, 180.0, 600.0)
     speeds: tuple[float, ...] = (1.0, 3.0, 9.0)
@@ -36,7 +36,7 @@ class Bench:
 
 
 def hertz_pressure(load: float) -> float:
-    """Largest pressure (GPa) of the two crowned discs, from the ellipse whose axes balance the curvatures."""
+    """Maximum Hertz pressure (GPa) of the two crowned discs from the elliptical contact."""
     along, across = (1.0 / (1.0 / a + 1.0 / b) * 1e-3 for a, b in (RADII, ACROSS))
     ratio = 1.0
     low, high = 1.0, 20.0
@@ -55,7 +55,7 @@ def hertz_pressure(load: float) -> float:
 
 
 def _integrals(ratio: float) -> tuple[float, float]:
-    """Complete elliptic integrals of the first and second kind of an ellipse with this ratio of axes."""
+    """Complete elliptic integrals of the first and second kind of an ellipse with axis ratio ``ratio``."""
     eccentricity = 1.0 - ratio**-2
     a, b, c = 1.0, math.sqrt(1.0 - eccentricity), math.sqrt(eccentricity)
     total, weight = 0.5 * c * c, 0.5
@@ -80,7 +80,7 @@ def friction(bench: Bench, pressure: float, ratio: float, speed: float, viscosit
 
 
 def viscosity(temperature: float) -> float:
-    """Dynamic viscosity (mPa s): the double logarithm of the kinematic one is straight over that of the kelvins."""
+    """Dynamic viscosity (mPa s): double log of kinematic viscosity linear in log temperature (K)."""
     (cold, thick), (warm, thin) = OIL.items()
     high, low = (math.log(math.log(nu + 0.7)) for nu in (thick, thin))
     start, end, place = (math.log(t + 273.15) for t in (cold, warm, temperature))

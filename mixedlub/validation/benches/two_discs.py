@@ -1,4 +1,4 @@
-"""Two crowned discs driven apart, with a torque meter on the first: sweeps of one condition at a time."""
+"""Two crowned discs driven separately, with a torque meter on the first: sweeps of single conditions."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 Columns = dict[str, list[Any]]
 RADII = (25.4, 38.1)
 BASE = {"load": 298.0, "speed": 2.48, "ratio": 1.08, "temperature": 33.0}
-"""Condition about which one at a time is varied; N, m/s, -, degrees."""
+"""Reference condition of the sweeps; N, m/s, -, degrees."""
 SWEPT: dict[str, tuple[float, ...]] = {
     "load": (49.0, 120.0, 200.0, 298.0, 450.0, 600.0),
     "speed": (0.3, 0.8, 1.6, 2.48, 3.2, 3.8),
@@ -33,7 +33,7 @@ class Errors:
 
 @dataclass(frozen=True)
 class Bench:
-    """Two oils by the factor of their friction, torque of the bearings (N m), both directions of sliding or one."""
+    """Oils by their friction factor, bearing torque (N m), one or both directions of sliding."""
 
     oils: tuple[tuple[str, float], ...] = (("ground", 1.0),)
     bearings: float = 0.0
@@ -50,7 +50,7 @@ class Bench:
 
 
 def recorded(bench: Bench, seed: int) -> tuple[Columns, list[float]]:
-    """Readings, and the friction coefficient behind each."""
+    """Readings, and the true friction coefficient of each."""
     random, e = np.random.default_rng(seed), bench.errors
     torque_gain, load_gain = 1.0 + e.torque * random.standard_normal(), 1.0 + e.load * random.standard_normal()
     torque_zero, load_zero = e.torque_zero * random.standard_normal(), e.load_zero * random.standard_normal()

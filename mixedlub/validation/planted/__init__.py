@@ -1,8 +1,8 @@
-"""Planted effects by name: those that the catalogue should name, and those that no catalogue has.
+"""Planted effects by name, inside and outside the catalogue.
 
 ``FORMS`` has every published form of an effect of gears and discs, ``NAMED`` the first of each; forms of other rigs are
-made by functions of their programme. Sources say where a form comes from. Constants that are not named as
-published are common sizes, chosen so that a strength of about 1 is what such a rig could show.
+made by functions of their programme. Sources give the origin of a form. Constants without a source are common sizes,
+chosen so that a strength of about 1 is realistic for the rig.
 """
 
 from __future__ import annotations

@@ -26,7 +26,7 @@ GAS = 8.314e-3
 
 
 def _activated(c: Contact, energy: float, celsius: float) -> np.ndarray:
-    """exp(-(E/R)(1/T - 1/T_a)): the rate of a process over that at a temperature (C), E in kJ/mol."""
+    """exp(-(E/R)(1/T - 1/T_a)): rate of a process relative to its rate at T_a (C), E in kJ/mol."""
     return np.exp(-energy / GAS * (1 / (c.temperature + KELVIN) - 1 / (celsius + KELVIN)))
 
 
@@ -39,8 +39,7 @@ def boundary_film_desorbed(c: Contact, strength: float, energy: float, half: flo
 def boundary_film_defect(c: Contact, strength: float, energy: float, balance: float) -> Contact:
     """Kingsbury: mu_B (1 + 0.5 strength [1 - exp(-(v_0/v_s) exp(-(E/R)(1/T - 1/T_a)))]), v_0 = 0.1 m/s at T_a.
 
-    A molecule stays for a time that falls with temperature; sites that it leaves during an encounter are bare. The
-    sliding speed from 1 mm/s on.
+    The residence time of a molecule falls with temperature; sites left in an encounter are bare. v_s from 1 mm/s on.
     """
     leaving = 0.1 / np.maximum(c.sliding, 1e-3) * _activated(c, energy, balance)
     return replace(c, boundary_friction=c.boundary_friction * (1 - 0.5 * strength * np.expm1(-leaving)))
@@ -53,10 +52,7 @@ def boundary_speed_dependence(c: Contact, strength: float) -> Contact:
 
 
 def boundary_speed_logarithm(c: Contact, strength: float) -> Contact:
-    """Layers shear at a stress linear in the logarithm of speed: mu_B (1 + 0.05 strength ln(v_s/1 m/s)), 0.1 at least.
-
-    From 1 mm/s on.
-    """
+    """Layer stress linear in log speed: mu_B (1 + 0.05 strength ln(v_s/1 m/s)), 0.1 at least, from 1 mm/s on."""
     grown = 1 + 0.05 * strength * np.log(np.maximum(c.sliding, 1e-3))
     return replace(c, boundary_friction=c.boundary_friction * np.maximum(grown, 0.1))
 
@@ -81,21 +77,20 @@ def tribofilm_growth(c: Contact, strength: float, pace: float) -> Contact:
 
 
 def tribofilm_of_first_order(c: Contact, strength: float, pace: float) -> Contact:
-    """A film covers what is bare: mu_B (1 + 0.3 strength (1 - e^(-s/pace)))."""
+    """A film covers bare surface: mu_B (1 + 0.3 strength (1 - e^(-s/pace)))."""
     grown = -np.expm1(-c.rig.sequence / pace)[:, None]
     return replace(c, boundary_friction=c.boundary_friction * (1 + 0.3 * strength * grown))
 
 
 ACTIVATION_VOLUME = 4e-29
-"""Of the reaction of an additive under stress (m3): some tens of cubic angstroms."""
+"""Activation volume of an additive's reaction under stress (m3): some tens of cubic angstroms."""
 BOLTZMANN = 1.380649e-23
 
 
 def tribofilm_under_stress(c: Contact, strength: float, pace: float, energy: float) -> Contact:
     """Stress and heat speed up the reaction: mu_B (1 + 0.3 strength (1 - e^(-X/pace))), X the sum of the rates so far.
 
-    A rate is exp(-(E - tau dV)/(k T)) over its mean, tau = mu_B pi p0/4 on average over the contacts of a reading, dV
-    some tens of cubic angstroms.
+    Rate: mean of exp(-(E - tau dV)/(k T)) over a reading's contacts, over the mean of all; tau = mu_B pi p0/4.
     """
     kelvin = c.temperature + KELVIN
     pushed = 0.25 * np.pi * c.boundary_friction * c.pressure * ACTIVATION_VOLUME / (BOLTZMANN * kelvin)

@@ -37,7 +37,7 @@ def _overlap_table(skewness: float) -> np.ndarray:
 
 
 def _from_the_top(values: np.ndarray) -> np.ndarray:
-    """Integral from each height up to the highest."""
+    """Integral from each height to the maximum height."""
     steps = 0.5 * (HEIGHTS[1] - HEIGHTS[0]) * (values[1:] + values[:-1])
     return np.append(np.cumsum(steps[::-1])[::-1], 0.0)
 
@@ -61,7 +61,7 @@ def _weibull_table(skewness: float) -> np.ndarray:
 
 @lru_cache(maxsize=4096)
 def _two_process_table(strength: float) -> np.ndarray:
-    """F_1 of the lower of a plateau's heights N(0, 1) and a rough cut's N(2/strength, 3), standardised, at HEIGHTS."""
+    """F_1 of the lower of plateau heights N(0, 1) and rough-cut heights N(2/strength, 3), standardised, at HEIGHTS."""
     fine = np.linspace(-24.0, 8.0, 6401)
     below = 1 - ndtr(-fine) * ndtr((2 / strength - fine) / 3)
     share = np.diff(below)
@@ -73,7 +73,7 @@ def _two_process_table(strength: float) -> np.ndarray:
 
 
 def _reshaped(c: Contact, overlap_of_heights: np.ndarray) -> Contact:
-    """The contact with summits of other heights, whose F_1 is given at HEIGHTS."""
+    """Contact with another distribution of summit heights, given by its F_1 at HEIGHTS."""
     s = summits(c)
     t = (c.film - s.offset) / s.spread
     change = np.interp(t, HEIGHTS, overlap_of_heights - _overlap_table(0.0))
@@ -89,7 +89,7 @@ def skewed_heights(c: Contact, strength: float) -> Contact:
 def skewed_as_weibull(c: Contact, strength: float) -> Contact:
     """Summit heights of Weibull's density (k/l) x^(k - 1) e^(-x^k) with skewness minus the strength.
 
-    Mean and spread stay. Part of the way to it below a strength of 0.05, since the normal density is none of Weibull's.
+    Mean and spread stay. Interpolated from the normal density, not a Weibull density, below a strength of 0.05.
     """
     skewness = round(float(np.clip(-strength, -0.95, 0.95)), 9)
     way = min(abs(strength) / 0.05, 1.0)
@@ -99,7 +99,7 @@ def skewed_as_weibull(c: Contact, strength: float) -> Contact:
 def skewed_by_two_processes(c: Contact, strength: float) -> Contact:
     """A plateau on a rough cut: heights are the lower of N(0, 1) and N(2/strength, 3), mean and spread kept.
 
-    The material ratio on normal paper bends from one line to another, as ISO 13565-3 evaluates it.
+    The material ratio on normal paper bends between two lines, as in ISO 13565-3.
     """
     return _reshaped(c, _two_process_table(round(float(min(strength, 0.95)), 9))) if strength > 0.02 else c
 
@@ -123,10 +123,10 @@ HIGHEST = 8.0
 
 
 def asperity_elastoplasticity(c: Contact, strength: float) -> Contact:
-    """Between first yield and full flow the area rises smoothly from once to twice that of elastic summits.
+    """Between first yield and full flow the area rises smoothly from once to twice the area of elastic summits.
 
-    Zhao, Maietta and Chang: pi R w [1 + 3 x^2 - 2 x^3], x = (w - w_1)/(w_2 - w_1) from 0 to 1, w_2 = 54 w_1 and
-    w_1 = (3 pi k H/(4 E*))^2 R with k = 0.4, H = 7 GPa over the strength. Summits up to 8 spreads high.
+    Zhao, Maietta and Chang: pi R w [1 + 3 x^2 - 2 x^3], x = (w - w_1)/(w_2 - w_1) from 0 to 1, w_2 = 54 w_1 and w_1 =
+    (3 pi k H/(4 E*))^2 R with k = 0.4, H = 7 GPa over the strength. Summits up to 8 spreads high.
     """
     if strength <= 0:
         return c
@@ -139,7 +139,7 @@ def asperity_elastoplasticity(c: Contact, strength: float) -> Contact:
 
 
 FIRST_YIELD = 0.577 * np.pi * HARDNESS
-"""Of a sphere that yields within, over E' and the root of its radius over the approach: K = 0.454 + 0.41 nu."""
+"""First yield of a sphere below its surface: E' times the root of approach over radius, K = 0.454 + 0.41 nu."""
 
 
 def yielding_spheres(c: Contact, strength: float) -> Contact:
@@ -160,7 +160,7 @@ def yielding_spheres(c: Contact, strength: float) -> Contact:
 def yielding_with_hardness(c: Contact, strength: float) -> Contact:
     """Jackson and Green: area over pi R w of (x/1.9)^B past x = w/w_c = 1.9, B = 0.14 e^(23 Y/E*), x 110 at most.
 
-    w_c as Kogut and Etsion's; the yield strength Y is H/2.8, and H = 7 GPa over the strength. B is 1 at most.
+    w_c as in Kogut and Etsion; the yield strength Y is H/2.8, and H = 7 GPa over the strength. B is 1 at most.
     """
     if strength <= 0:
         return c
@@ -174,10 +174,7 @@ def yielding_with_hardness(c: Contact, strength: float) -> Contact:
 
 
 def _yielded(c: Contact, onset: float, grown: Callable[[np.ndarray], np.ndarray]) -> Contact:
-    """The contact whose summits spread past the approach ``onset``^2 R, by what they grow at multiples of it.
-
-    Summits up to 8 spreads high.
-    """
+    """Contact with summits (to 8 spreads) that spread past the approach ``onset``^2 R by ``grown`` of its multiples."""
     s = summits(c)
     t = (c.film - s.offset) / s.spread
     first = onset**2 * s.radius / s.spread
@@ -204,15 +201,15 @@ def _amplitudes(c: Contact, strength: float) -> list[tuple[np.ndarray, np.ndarra
 
 
 def _pressed(group: np.ndarray) -> np.ndarray:
-    """Amplitude that is left of a wave in a line contact, 1/(1 + 0.17 q + 0.03 q^2) (Venner and Lubrecht)."""
+    """Remaining amplitude of a wave in a line contact, 1/(1 + 0.17 q + 0.03 q^2) (Venner and Lubrecht)."""
     return np.asarray(1 / (1 + 0.17 * group + 0.03 * group**2))
 
 
 def micro_ehl(c: Contact, strength: float) -> Contact:
-    """Waves of each surface are pressed flat as Venner and Lubrecht computed for a line contact.
+    """Waves of each surface are flattened as computed by Venner and Lubrecht for a line contact.
 
-    Amplitude 1/(1 + 0.17 q + 0.03 q^2) with q = (wave/b) M^(3/4)/L^(1/2); the wave of a surface is ``strength`` times
-    2 pi Rq/Rdq. Slopes keep half of the change in logarithm, curvatures none, since short waves stay.
+    Amplitude 1/(1 + 0.17 q + 0.03 q^2) with q = (wave/b) M^(3/4)/L^(1/2); the wave of a surface is ``strength`` times 2
+    pi Rq/Rdq. Slopes keep half of the change in logarithm, curvatures none, since short waves stay.
     """
     heights, slopes = 0.0, 0.0
     for share, group in _amplitudes(c, strength):
@@ -229,15 +226,15 @@ def micro_ehl_of_one_wave(c: Contact, strength: float) -> Contact:
 
 
 WAVES = np.geomspace(0.1, 10.0, 13)
-"""Wave numbers of a self-affine profile, over that of its dominant wave."""
+"""Wave numbers of a self-affine profile over the dominant wave number."""
 SELF_AFFINE = WAVES**-1.6
 """Height spectrum a logarithm of the wave number at a Hurst exponent of 0.8."""
 
 
 def micro_ehl_of_spectrum(c: Contact, strength: float) -> Contact:
-    """1/(1 + 0.17 q + 0.03 q^2) wave by wave: long ones of a self-affine profile are pressed flat, short ones stay.
+    """1/(1 + 0.17 q + 0.03 q^2) wave by wave: long waves of a self-affine profile are flattened, short waves stay.
 
-    Waves from a tenth to ten times the dominant one, their heights squared as the wave to the power 1.6.
+    Waves from a tenth to ten times the dominant wave, their heights squared as the wave to the power 1.6.
     """
     left = np.zeros(3)
     for share, group in _amplitudes(c, strength):
@@ -273,7 +270,7 @@ def running_in_and_wear(c: Contact, strength: float, pace: float, steady: float)
 
 
 def surface_defects(c: Contact, strength: float) -> Contact:
-    """Raised scratches touch whatever the film: P_B becomes a + (1 - a) P_B with a = 0.01 strength."""
+    """Raised scratches touch at any film: P_B becomes a + (1 - a) P_B with a = 0.01 strength."""
     always = 0.01 * strength
     return replace(c, area=always + (1 - always) * c.area)
 
@@ -288,9 +285,9 @@ def surface_burrs(c: Contact, strength: float, height: float) -> Contact:
 
 
 def surface_ridges(c: Contact, strength: float, height: float) -> Contact:
-    """Ridges that one tool left: P_B becomes a + (1 - a) P_B, a = 0.02 strength of those above the film.
+    """Ridges left by a tool: P_B becomes a + (1 - a) P_B, a = 0.02 strength times the share of ridges above the film.
 
-    Their heights, in micrometres, are normal about the mean with a scatter of 40 %, unlike exponential ones.
+    Their heights, in micrometres, are normal about the mean with a scatter of 40 %, unlike exponential heights.
     """
     touching = np.minimum(0.02 * strength * ndtr((1 - c.film / (1e-6 * height)) / 0.4), 1.0)
     return replace(c, area=touching + (1 - touching) * c.area)

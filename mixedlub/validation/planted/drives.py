@@ -15,13 +15,13 @@ TRANSITION = 3e5
 GAP = ((10.0, -1.0), (2.0, -0.6), (1.03, -0.5), (0.065, -0.2))
 Moment = Callable[[np.ndarray], np.ndarray]
 SHOWN_BELOW = 1 / 300
-"""A drive that is never slower than this share of its full speed has no reading before sliding."""
+"""Drives that never run below this share of full speed have no reading before sliding."""
 
 
 def with_square(share: np.ndarray, bend: float) -> np.ndarray:
-    """Proportional to load and, where parts give and rub, to its square: (1 - b) w + b w^2, for loads up to 1.
+    """Loss proportional to load, with a square term of elastic, rubbing parts: (1 - b) w + b w^2, for loads up to 1.
 
-    The first two terms of any loss that is smooth in load and gone without it.
+    The first two terms of any loss that is smooth in load and vanishes without load.
 
     >>> [float(w) for w in with_square(np.array([0.0, 0.5, 1.0]), 0.5)]
     [0.0, 0.375, 1.0]
@@ -30,11 +30,11 @@ def with_square(share: np.ndarray, bend: float) -> np.ndarray:
 
 
 def adhering(share: np.ndarray, pull: float) -> np.ndarray:
-    """Proportional to the area of an elastic ball that adheres: (w + w_a)^(2/3) less that without load.
+    """Loss proportional to the contact area of an adhering elastic ball: (w + w_a)^(2/3) less its value without load.
 
-    Derjaguin, Muller and Toporov, J. Colloid Interface Sci. 53 (1975) 314: Hertz's area under the load and the
-    ``pull`` w_a of adhesion together, over the largest load. Stiff bodies; the part without load is dry friction.
-    Cited from memory; the power is Hertz's.
+    Derjaguin, Muller and Toporov, J. Colloid Interface Sci. 53 (1975) 314: Hertz's area under the load and the ``pull``
+    w_a of adhesion together, over the largest load. Stiff bodies; the part without load is dry friction. Cited from
+    memory; the power is Hertz's.
 
     >>> [round(float(w), 6) for w in adhering(np.array([0.0, 1 / 8, 1.0]), 0.0)]
     [0.0, 0.25, 1.0]
@@ -46,8 +46,8 @@ def adhering(share: np.ndarray, pull: float) -> np.ndarray:
 def over_hersey(speed: np.ndarray, share: np.ndarray, width: float, power: float) -> np.ndarray:
     """Share of boundary friction left at a Hersey number, 1/(1 + H^2), H = (speed/width)/w^power.
 
-    Hersey 1914 has power 1; Hess and Soom, J. Tribol. 112 (1990) 147, have this fall over speed by the root of load,
-    both from memory and not checked against the papers. Speeds over full speed, of one oil at one temperature.
+    Power 1 in Hersey 1914; fall over speed by the root of load in Hess and Soom, J. Tribol. 112 (1990) 147; both from
+    memory and not checked against the papers. Speeds over full speed, of one oil at one temperature.
 
     >>> [round(float(left), 3) for left in over_hersey(np.array([0.0, 0.1, 0.1]), np.array([1.0, 1.0, 0.25]), 0.1, 0.5)]
     [1.0, 0.5, 0.2]
@@ -56,7 +56,7 @@ def over_hersey(speed: np.ndarray, share: np.ndarray, width: float, power: float
 
 
 def under_load(load: np.ndarray) -> tuple[Form, ...]:
-    """Forms where a load is recorded."""
+    """Forms for drives with a recorded load."""
     share = load / load.max()
 
     def lost(d: Any, strength: float, part: np.ndarray) -> Any:
@@ -100,15 +100,15 @@ def bristles(travel: np.ndarray) -> np.ndarray:
 
 
 def ball_bearing(travel: np.ndarray, exponent: float) -> np.ndarray:
-    """At the end of a reading of dF/dx = (1 - F)^i, i > 1: 1 - (1 + (i - 1) x)^(-1/(i - 1)).
+    """Value at the end of a reading of dF/dx = (1 - F)^i, i > 1: 1 - (1 + (i - 1) x)^(-1/(i - 1)).
 
-    Dahl, AIAA J. 14 (1976) 1675, whose ball bearings have an i between 1 and 2.
+    Dahl, AIAA J. 14 (1976) 1675, with i between 1 and 2 for ball bearings.
     """
     return np.asarray(1 - (1 + (exponent - 1) * travel) ** (-1 / (exponent - 1)))
 
 
 def partial_slip(travel: np.ndarray) -> np.ndarray:
-    """At the end of a reading of an elastic ball whose slip ring grows inwards: 1 - (1 - 2 x/3)^(3/2), 1 from 3/2 on.
+    """Value at the end of a reading of an elastic ball with an inward slip ring: 1 - (1 - 2 x/3)^(3/2), 1 from 3/2 on.
 
     Mindlin, J. Appl. Mech. 16 (1949) 259.
     """
@@ -116,7 +116,7 @@ def partial_slip(travel: np.ndarray) -> np.ndarray:
 
 
 def hysteretic(travel: np.ndarray) -> np.ndarray:
-    """At the end of a reading of dF/dx = 1 - F^2: tanh x.
+    """Value at the end of a reading of dF/dx = 1 - F^2: tanh x.
 
     Bouc 1967 and Wen, J. Eng. Mech. 102 (1976) 249, of exponent 2 on first loading; Andersson, Soderberg and Bjorklund,
     Tribol. Int. 40 (2007) 580, take the tangent itself. Cited from memory, the exponent and the tangent unchecked.
@@ -128,19 +128,19 @@ def hysteretic(travel: np.ndarray) -> np.ndarray:
 
 
 def presliding(share: np.ndarray) -> tuple[Form, ...]:
-    """Forms for a drive at signed speeds over its full speed, where some are slow enough."""
+    """Forms for a drive at signed speeds over its full speed; none if all speeds are too fast."""
     if np.abs(share).min() > SHOWN_BELOW:
         return ()
 
     def given(d: Any, strength: float, reached: Callable[[np.ndarray], np.ndarray]) -> Any:
-        """All friction but the drag of the oil is borne by contacts; 0.4 % of full speed is a travel of one."""
+        """Contacts bear all friction except oil drag; the unit of travel is 0.4 % of full speed."""
         if strength <= 0:
             return d
         part = reached(np.abs(share) / (0.004 * strength))
         return replace(d, running=d.drag + part * (d.running - d.drag))
 
     def lugre(d: Any, strength: float) -> Any:
-        """Mean of 1 - e^-x over a reading, x its travel, 0.4 % strength of full speed for one."""
+        """Mean of 1 - e^-x over a reading, x the travel in units of 0.4 % strength of full speed."""
         return given(d, strength, bristles)
 
     def dahl(d: Any, strength: float, exponent: float) -> Any:
@@ -168,9 +168,9 @@ def presliding(share: np.ndarray) -> tuple[Form, ...]:
 def free_disc(reynolds: np.ndarray) -> np.ndarray:
     """Moment coefficient of both sides, torque over rho omega^2 R^5/2.
 
-    3.87 Re^-1/2 (Cochran 1934) where laminar and 0.146 Re^-1/5 (von Karman 1921) where turbulent. Inside the radius of
-    transition a disc stays laminar: that part of the turbulent torque is exchanged for the laminar one, as Prandtl does
-    for a plate (Schlichting, Boundary-Layer Theory, chapter 21).
+    Laminar 3.87 Re^-1/2 (Cochran 1934), turbulent 0.146 Re^-1/5 (von Karman 1921). Inside the radius of transition a
+    disc stays laminar: its turbulent torque is replaced by the laminar torque, as Prandtl does for a plate
+    (Schlichting, Boundary-Layer Theory, chapter 21).
     """
     reynolds = np.maximum(reynolds, 1e-9)
     inside = (0.146 * TRANSITION**-0.2 - 3.87 * TRANSITION**-0.5) * (TRANSITION / reynolds) ** 2.5
@@ -180,20 +180,20 @@ def free_disc(reynolds: np.ndarray) -> np.ndarray:
 def rotor_in_gap(reynolds: np.ndarray) -> np.ndarray:
     """Moment coefficient of a rotor in a bore over (gap/radius)^0.3, by omega R t/nu: linear drag, then vortices.
 
-    Bilgen and Boulos, J. Fluids Eng. 95 (1973) 122: four powers, of which the largest holds.
+    Bilgen and Boulos, J. Fluids Eng. 95 (1973) 122: the largest of four powers.
     """
     reynolds = np.maximum(reynolds, 1e-9)
     return np.asarray(np.max([factor * reynolds**power for factor, power in GAP], axis=0))
 
 
 def torque_share(share: np.ndarray, reynolds: float, moment: Moment) -> np.ndarray:
-    """Signed torque over that at full speed, for speeds over full speed."""
+    """Signed torque over the torque at full speed, for speeds over full speed."""
     full = float(moment(np.array([reynolds]))[0])
     return np.asarray(share * np.abs(share) * moment(reynolds * np.abs(share)) / full)
 
 
 def stirring(share: np.ndarray, real: bool) -> tuple[Form, ...]:
-    """Forms for a drive at signed speeds over its full speed; where none is ``real`` they are rivals only."""
+    """Forms for a drive at signed speeds over its full speed; rivals only unless ``real``."""
 
     def dragged(d: Any, strength: float, torque: np.ndarray) -> Any:
         return replace(d, running=d.running + 0.7 * strength * d.level * torque)

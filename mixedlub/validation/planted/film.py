@@ -20,10 +20,10 @@ def inlet_shear_heating(c: Contact, strength: float) -> Contact:
 
 
 def heated_by_hsu_lee(c: Contact, strength: float) -> Contact:
-    """Loss that grows with pressure and slip: h/(1 + 0.0766 G^0.687 W^0.447 L^0.527 e^(0.875 S)), L as Murch-Wilson's.
+    """Loss that grows with pressure and slip: h/(1 + 0.0766 G^0.687 W^0.447 L^0.527 e^(0.875 S)), L as in Murch-Wilson.
 
-    G = alpha E', W the load a width over E' R, S the slide-roll ratio, 2 at most; a fit to line contacts
-    of oils at rolling speeds of m/s. The constants are from memory, not checked against the paper.
+    G = alpha E', W the load a width over E' R, S the slide-roll ratio, 2 at most; a fit to line contacts of oils at
+    rolling speeds of m/s. The constants are from memory, not checked against the paper.
     """
     modulus = c.rig.solid.reduced
     load = c.line_load / (modulus * c.rig.radius)
@@ -36,7 +36,7 @@ def heated_by_hsu_lee(c: Contact, strength: float) -> Contact:
 def starvation(c: Contact, strength: float, steepness: float) -> Contact:
     """Oil flows back too slowly above a limit of eta u: h (1 + r^4)^(-k/4), r = strength eta u/(0.05 Pa m).
 
-    The replenishment group eta u of Cann, with a power-law fall beyond the limit and none below it.
+    Replenishment group eta u of Cann, with a power-law fall beyond the limit and no fall below it.
     """
     over = strength * c.viscosity * c.entrainment / SUPPLY_LIMIT
     return replace(c, film=c.film * (1 + over**4) ** (-0.25 * steepness))
@@ -52,7 +52,7 @@ def starved_by_meniscus(c: Contact, strength: float, distance: float) -> Contact
 def inlet_shear_thinning(c: Contact, strength: float, plateau: float) -> Contact:
     """Polymer-thickened oil in the inlet: Cross fall to a second plateau, h times (eta/eta0)^0.69.
 
-    The inlet shear rate is u/h of the Newtonian film; 2e7 1/s is where strength 1 has half the fall.
+    The inlet shear rate is u/h of the Newtonian film; at 2e7 1/s, strength 1 has half the fall.
     """
     rate = strength * c.entrainment / (c.film * INLET_RATE)
     effective = plateau + (1 - plateau) / (1 + rate**0.8)
@@ -80,7 +80,7 @@ def _slip(c: Contact) -> np.ndarray:
 def heated_at_rolling_sum(c: Contact, strength: float) -> Contact:
     """h/(1 + 0.1 (1 + 14.8 V^0.83) L^0.64), L = strength beta eta0 (u1 + u2)^2/k, V the slide over the sum of speeds.
 
-    As public programs have it; with the mean speed the constant is 0.24.
+    As in public programs; with the mean speed the constant is 0.24.
     """
     loading = strength * _heat(c, 2 * c.entrainment)
     return replace(c, film=c.film / (1 + 0.1 * (1 + 14.8 * (0.5 * _slip(c)) ** 0.83) * loading**0.64))
@@ -89,8 +89,7 @@ def heated_at_rolling_sum(c: Contact, strength: float) -> Contact:
 def heated_under_pressure(c: Contact, strength: float) -> Contact:
     """h (1 - 13.2 (p0/E') L^0.42)/(1 + 0.213 (1 + 2.23 S^0.83) L^0.64), L = strength beta eta0 u^2/k, a tenth at least.
 
-    Zhu and Cheng's factor as Zhou and Hoeprich, J. Tribol. 113 (1991) 590, equation 21, print it; S is the slide-roll
-    ratio. Gupta and others (1992) have the same.
+    Zhu and Cheng, in Zhou and Hoeprich, J. Tribol. 113 (1991) 590, eq. 21, and Gupta et al. 1992; S: slide-roll ratio.
     """
     loading = strength * _heat(c, c.entrainment)
     rolling = np.maximum(1 - 13.2 * c.pressure / c.rig.solid.reduced * loading**0.42, 0.1)
@@ -137,13 +136,13 @@ def thinned_by_bair(c: Contact, strength: float, index: float) -> Contact:
 
 
 FLOW_EXPONENT = 0.69
-"""Of viscosity in the film law: a flow factor acts in the inlet as a viscosity over it."""
+"""Exponent of viscosity in the film law: a flow factor acts in the inlet as a divisor of viscosity."""
 
 
 def lay_of_flow_factors(c: Contact, strength: float) -> Contact:
     """h phi^-0.69, phi = 1 - 1.18 s e^(-0.42 H) across the flow, 1 + 0.225 |s| H^-1.5 along it (s < 0), H = h/sigma.
 
-    Patir and Cheng's pressure flow factors of ridges three times as long as wide; below H = 1 that at 1 is kept.
+    Patir and Cheng's pressure flow factors of ridges three times as long as wide; constant below H = 1.
     """
     height = np.maximum(c.film / c.roughness, 1.0)
     across, along = 1 - 1.18 * max(strength, 0.0) * np.exp(-0.42 * height), 0.225 * max(-strength, 0.0) * height**-1.5
@@ -153,7 +152,7 @@ def lay_of_flow_factors(c: Contact, strength: float) -> Contact:
 def lay_by_perturbation(c: Contact, strength: float) -> Contact:
     """h phi^-0.69, phi = 1/(1 + 6 s/H^2) of ridges across the flow, 1 + 3 |s|/H^2 along it (s < 0), H = h/sigma.
 
-    Tripp's first order 1 - 3 ((2 - g)/(1 + g))/H^2 at ridges without end, of which the first is bounded.
+    Tripp's first order 1 - 3 ((2 - g)/(1 + g))/H^2 at ridges without end; the form across the flow is bounded.
     """
     close = (c.roughness / c.film) ** 2
     opened = 6 * max(strength, 0.0) * close - 3 * max(-strength, 0.0) * close
@@ -199,4 +198,4 @@ OF_HISTORIES = tuple(form for form in EFFECTS if form.id != "roughness_lay")
 """Forms for friction histories."""
 
 OF_LOCAL_CONTACTS = tuple(replace(form, within=form.within or form.law is thinned_by_carreau) for form in OF_HISTORIES)
-"""Forms for films and tooth contacts, whose thinning may set in as sharply as Carreau's."""
+"""Forms for films and tooth contacts, including thinning with an onset as sharp as Carreau's."""

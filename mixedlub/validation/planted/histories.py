@@ -1,4 +1,4 @@
-"""Forms of friction histories: surface states in the course of a programme, the give of the bodies at small slip."""
+"""Forms of friction histories: surface states during a programme, elastic compliance of the bodies at small slip."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ FALL, EITHER = strength(0.0, 6.0), strength(-2.2, 5.0)
 
 @dataclass(frozen=True)
 class Track:
-    """Friction of a track whose conditions are held: its level, and the share of it that is reached."""
+    """Friction of a track under constant conditions: its level, and the recorded share."""
 
     level: np.ndarray
     recorded: np.ndarray
@@ -27,7 +27,7 @@ def _scaled(state: Any, factor: np.ndarray) -> Any:
 
 
 def histories(time: np.ndarray) -> dict[str, tuple[Form, ...]]:
-    """Forms a surface state may take over the programme (0 to 1), by id; they scale friction that touches."""
+    """Forms of a surface state over the programme (0 to 1), by id; they scale the friction of touching surfaces."""
     return {
         "friction_run_in": _run_ins(time),
         "tribofilm_growth": _growths(time),
@@ -105,7 +105,7 @@ def _successions(time: np.ndarray) -> tuple[Form, ...]:
     """A quick transient on top of a lasting change."""
 
     def difference(state: Any, strength: float, quick: float, lasting: float) -> Any:
-        """A film that forms and passes, on a track that wears evenly."""
+        """A film that forms and passes, on a track with uniform wear."""
         passing = np.exp(-time / (4 * quick)) - np.exp(-time / quick)
         return _scaled(state, 1 + strength * (0.5 * passing - 0.3 * lasting * time))
 
@@ -162,7 +162,7 @@ def _wanderings(time: np.ndarray) -> tuple[Form, ...]:
 def washed_in(since: np.ndarray, mixing: float) -> np.ndarray:
     """Share of new oil in a stirred sump, 1 - exp(-t/mixing) from a moment on (Danckwerts 1953); shares of a programme.
 
-    Cited from memory; the form is the sump's own balance and has no constants of his.
+    Cited from memory; the form is the balance of the sump and has no constants from the source.
 
     >>> [round(float(share), 6) for share in washed_in(np.array([-0.1, 0.0, 0.05]), 0.05)]
     [0.0, 0.0, 0.632121]
@@ -171,10 +171,10 @@ def washed_in(since: np.ndarray, mixing: float) -> np.ndarray:
 
 
 def hump(since: np.ndarray, coming: float, passing: float) -> np.ndarray:
-    """What enters at one pace and leaves at a slower one, A to B to C, over its own peak (Bateman 1910).
+    """Amount of an intermediate product, A to B to C, over its peak: quick entry, slow loss (Bateman 1910).
 
-    ``since`` a moment, ``coming`` and ``passing`` unlike, all in shares of a programme; the peak is at
-    ln(passing/coming)/(1/coming - 1/passing). Cited from memory; the form solves the rates and has no constants of his.
+    Unequal times ``coming`` and ``passing`` in shares of a programme; peak at ln(passing/coming)/(1/coming -
+    1/passing). Cited from memory; the form solves the rates, without constants of the source.
 
     >>> [round(float(size), 6) for size in hump(np.array([-0.1, 0.0, 0.04 * np.log(2)]), 0.02, 0.04)]
     [0.0, 0.0, 1.0]
@@ -199,7 +199,7 @@ def _events(time: np.ndarray) -> tuple[Form, ...]:
         return _scaled(state, 1 + 0.1 * strength * washed_in(time - when, mixing))
 
     def passing(state: Any, strength: float, when: float, lasting: float) -> Any:
-        """Water or dirt gets in and is driven out again: a hump of friction that relaxes to where it was."""
+        """Water or dirt gets in and is driven out again: a hump of friction that relaxes to its former level."""
         return _scaled(state, 1 + 0.15 * strength * hump(time - when, 0.2 * lasting, lasting))
 
     def scuffing(state: Any, strength: float, reach: float) -> Any:
@@ -220,7 +220,7 @@ def _events(time: np.ndarray) -> tuple[Form, ...]:
 
 
 def creeps(slip: np.ndarray) -> tuple[Form, ...]:
-    """Elastic give of the bodies at small slip: share of friction that is reached."""
+    """Forms of the elastic compliance of the bodies at small slip, as a share of full friction."""
 
     def reached(state: Any, share: np.ndarray) -> Any:
         if isinstance(state, Track):

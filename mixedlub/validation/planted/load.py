@@ -11,7 +11,7 @@ from mixedlub.validation.rig import Form, Knob, strength
 
 
 def _torque_ratio(c: Contact) -> np.ndarray:
-    """Torque of each reading over the largest of the programme (readings by 1)."""
+    """Torque of each reading over 150 Nm (readings by 1)."""
     torque = c.rig.conditions["torque_Nm"].astype(float)[:, None]
     return np.asarray(torque / 150.0)
 
@@ -34,9 +34,9 @@ def dynamic_load(c: Contact, strength: float, resonance_rpm: float) -> Contact:
 def dynamic_load_of_two_orders(c: Contact, strength: float, resonance_rpm: float, second: float) -> Contact:
     """A transmission error of two mesh orders shakes one mass on the mesh spring (Ozguven and Houser 1988).
 
-    Order n adds 0.15 strength (1, ``second``) D cos(2 pi n x/p_b - a), D exp(-i a) = r^2/(1 - r^2 + 0.14 i r) with
-    r = n q: the second order resonates at half the speed. D grows as q^2 at low speed; the mean force stays.
-    Cited from memory; the error's size and the damping of 7 % were not checked against them.
+    Order n adds 0.15 strength (1, ``second``) D cos(2 pi n x/p_b - a), D exp(-i a) = r^2/(1 - r^2 + 0.14 i r) with r =
+    n q: the second order resonates at half the speed. D grows as q^2 at low speed; the mean force stays. Cited from
+    memory; amplitudes and the damping of 7 % were not checked against the paper.
     """
     q = c.rig.conditions["speed_rpm"].astype(float)[:, None] / resonance_rpm
     waved = np.ones(1)
@@ -67,7 +67,7 @@ def dynamic_load_of_quality(c: Contact, strength: float, quality: float) -> Cont
 def dynamic_load_of_errors(c: Contact, strength: float, fixed: float) -> Contact:
     """ISO 6336-1 below resonance: force (1 + 0.1 strength (n/1500 rpm) [1 - f + f (150 Nm/T)]), ``fixed`` = f.
 
-    Added force grows with speed; that of pitch errors is as large whatever the load, that of deflection grows with it.
+    The added force grows with speed; the share of pitch errors is independent of load, of deflection proportional.
     """
     return _forced(c, c.force * (1 + 0.1 * strength * _speed(c) * (1 - fixed + fixed / _torque_ratio(c))))
 

@@ -15,18 +15,18 @@ def _rpm(c: Contact) -> np.ndarray:
 
 
 def _viscosity(c: Contact) -> np.ndarray:
-    """Viscosity (Pa s) of the bath, which is as warm as recorded whatever the teeth are, one value a reading."""
+    """Viscosity (Pa s) of the bath at its recorded temperature, independent of the teeth, by reading."""
     factor = (c.viscosity / c.rig.oil.viscosity_at(c.temperature))[:, 0]
     return np.asarray(factor * c.rig.oil.viscosity_at(c.rig.temperature))
 
 
 def _viscosity_mm2_s(c: Contact) -> np.ndarray:
-    """Kinematic viscosity (mm2/s) of the bath, calibration included, one value a reading."""
+    """Kinematic viscosity (mm2/s) of the bath by reading, calibration included."""
     return np.asarray(1e6 * _viscosity(c) / c.rig.oil.density_at(c.rig.temperature))
 
 
 def _heavy(c: Contact) -> np.ndarray:
-    """Density of the bath over that at 15 C."""
+    """Density of the bath over its density at 15 C."""
     return np.asarray(c.rig.oil.density_at(c.rig.temperature) / c.rig.oil.density_15)
 
 
@@ -35,7 +35,7 @@ def _added(c: Contact, more: np.ndarray) -> Contact:
 
 
 def _resisted(c: Contact, per_width: np.ndarray) -> Contact:
-    """Adds a rolling force per width (N/m) on each surface: power on gears, part of the friction on discs."""
+    """Add a rolling force per width (N/m) on each surface: power on gears, friction on discs."""
     if c.rig.is_mesh:
         power = per_width * c.rig.width * (c.rig.speed_1 + c.rig.speed_2)
         return _added(c, np.sum(np.broadcast_to(power, c.force.shape), axis=1) * c.rig.step)
@@ -61,13 +61,13 @@ def rolling_resistance(c: Contact, strength: float) -> Contact:
 
 
 def rolling_free_of_load(c: Contact, strength: float) -> Contact:
-    """Biboulet and Houpert: f' = 1.47 U^0.75 E' R per width, U = 2 eta0 u/(E' R), whatever the load."""
+    """Biboulet and Houpert: f' = 1.47 U^0.75 E' R per width, U = 2 eta0 u/(E' R), at any load."""
     size = c.rig.solid.reduced * c.rig.radius
     return _resisted(c, strength * 1.47 * (2 * c.viscosity * c.entrainment / size) ** 0.75 * size)
 
 
 def rolling_under_load(c: Contact, strength: float) -> Contact:
-    """Zhou and Hoeprich: f' = 29.2 (G U)^0.648 W^0.246 R/alpha per width, with heating of the inlet left out.
+    """Zhou and Hoeprich: f' = 29.2 (G U)^0.648 W^0.246 R/alpha per width, without inlet heating.
 
     J. Tribol. 113 (1991) 590, equation 17, a fit to solutions for W of 1e-4 to 4e-4 and U of 1e-11 to 1e-9.
     """
@@ -85,8 +85,7 @@ def rolling_as_bearings_are_tested(c: Contact, strength: float) -> Contact:
 def rolling_in_warm_inlets(c: Contact, strength: float) -> Contact:
     """Goksem and Hargreaves with heat: f' = (R W/alpha) D^(52/79 + L^(20/63)/94) e^(-114/701)/(1 + (86/209) L^(70/99)).
 
-    L = beta eta0 u^2/k; exponents as Aihara's equation 20 prints them. D = 11.81 G U/W^1.5 makes the limit without heat
-    their isothermal force.
+    L = beta eta0 u^2/k; exponents as in Aihara's equation 20; D = 11.81 G U/W^1.5 for their isothermal limit.
     """
     size = c.rig.solid.reduced * c.rig.radius
     load, heat = c.line_load / size, _inlet_heat(c)
@@ -102,7 +101,7 @@ def elastic_hysteresis(c: Contact, strength: float) -> Contact:
 
 
 def elastic_damping(c: Contact, strength: float, power: float) -> Contact:
-    """Lazan: metals damp with a power n of stress between 2 and 3: the share lost is 0.01 s (p0/1 GPa)^(n - 2)."""
+    """Lazan: metals damp with a power n of stress between 2 and 3; energy share lost 0.01 s (p0/1 GPa)^(n - 2)."""
     share = 0.01 * strength * (c.pressure / 1e9) ** (power - 2)
     return _resisted(c, share * c.half_width * c.line_load / (3 * np.pi * c.rig.radius))
 
@@ -151,7 +150,7 @@ def windage_of_teeth(c: Contact, strength: float) -> Contact:
 
 
 def _dipping(c: Contact) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
-    """Half rho w^3 R^3 S of a wheel that dips by half its radius (W), Froude and Reynolds numbers, width/diameter."""
+    """Half rho w^3 R^3 S of a wheel dipping by half its radius (W), Froude and Reynolds numbers, width/diameter."""
     (radius, speed, teeth) = _each_wheel(c)[1]
     nu, width = 1e-6 * _viscosity_mm2_s(c), c.rig.width
     wetted = np.arccos(0.5)
@@ -173,7 +172,7 @@ def churning_of_splash(c: Contact, strength: float) -> Contact:
 def churning_past_splash(c: Contact, strength: float) -> Contact:
     """Changenet and Velex: the slow law, and C = 3.644 (h/D)^0.1 (V/D^3)^-0.35 Fr^-0.88 (b/D)^0.85 at speed.
 
-    Evenly from the one to the other between w^2 (R b m)^(1/3) of 750 and 1250 m/s2.
+    Linear transition for w^2 (R b m)^(1/3) between 750 and 1250 m/s2.
     """
     power, froude, reynolds, slim = _dipping(c)
     radius, speed, _ = _each_wheel(c)[1]
@@ -184,14 +183,14 @@ def churning_past_splash(c: Contact, strength: float) -> Contact:
 
 
 def churning_of_standard(c: Contact, strength: float) -> Contact:
-    """ISO/TR 14179-1: P = 12 W strength (n/1500 rpm)^3 (nu/15 mm2/s), by its powers of speed and viscosity."""
+    """ISO/TR 14179-1: P = 12 W strength (n/1500 rpm)^3 (nu/15 mm2/s), with its powers of speed and viscosity."""
     return _added(c, 12 * strength * (_rpm(c) / 1500) ** 3 * _viscosity_mm2_s(c) / 15)
 
 
 def churning_of_boness(c: Contact, strength: float, reynolds: float) -> Contact:
     """Boness: w^3 C, C = 20/Re below 2000, 8.6e-4 Re^(1/3) to 1e5, 5e8/Re^2 beyond; 12 W at 1500 rpm, 15 mm2/s, Re 1e4.
 
-    ``reynolds`` is that at 1500 rpm and 15 mm2/s, over 1e4; thin oil is churned more than thick oil in between.
+    ``reynolds``: Re/1e4 at 1500 rpm and 15 mm2/s; in the middle range thin oil is churned more than thick oil.
     """
     n = _rpm(c) / 1500
     number = 1e4 * reynolds * n / (_viscosity_mm2_s(c) / 15)
@@ -200,7 +199,7 @@ def churning_of_boness(c: Contact, strength: float, reynolds: float) -> Contact:
 
 
 def churning(c: Contact, strength: float, speed_power: float, viscosity_power: float) -> Contact:
-    """Dip loss as dip tests are fitted: P = 12 W strength (n/1500 rpm)^a (nu/15 mm2/s)^q."""
+    """Dip loss by a fit to dip tests: P = 12 W strength (n/1500 rpm)^a (nu/15 mm2/s)^q."""
     power = (_rpm(c) / 1500) ** speed_power * (_viscosity_mm2_s(c) / 15) ** viscosity_power
     return _added(c, 12 * strength * power)
 
@@ -208,7 +207,7 @@ def churning(c: Contact, strength: float, speed_power: float, viscosity_power: f
 def churning_of_rim_and_faces(c: Contact, strength: float, rim: float) -> Contact:
     """Seetharaman and Kahraman: a film at the rim, n^2 nu, and turbulent layers at the faces, n^2.86 nu^0.14.
 
-    12 W strength at 1500 rpm and 15 mm2/s, ``rim`` of it at the rim; both are proportional to the density.
+    12 W strength at 1500 rpm and 15 mm2/s, a share ``rim`` at the rim; both are proportional to the density.
     """
     n, nu = _rpm(c) / 1500, _viscosity_mm2_s(c) / 15
     return _added(c, 12 * strength * _heavy(c) * (rim * n**2 * nu + (1 - rim) * n**2.86 * nu**0.14))
@@ -221,9 +220,9 @@ def churning_past_transition(c: Contact, strength: float, transition: float) -> 
     """Layers on the faces that turn turbulent: moment over rho omega^2 as Re^-1/2, past a Reynolds number as Re^-1/5.
 
     Daily and Nece 1960, enclosed discs with separate layers: 3.70 (s/a)^0.1 Re^-1/2 and 0.102 (s/a)^0.1 Re^-1/5, which
-    meet at 1.6e5; a stirred bath is turbulent sooner. ``transition`` is n/1500 rpm over nu/15 mm2/s there.
-    12 W strength at 1500 rpm and 15 mm2/s in the laminar layer, with the density. Their coefficients and exponents are
-    from memory, not checked against the paper.
+    meet at 1.6e5; a stirred bath is turbulent sooner. ``transition``: n/1500 rpm over nu/15 mm2/s at this point. 12 W
+    strength at 1500 rpm and 15 mm2/s in the laminar layer, with the density. Coefficients and exponents are from
+    memory, not checked against the paper.
 
     >>> round(DISC_TRANSITION, -3)
     158000.0
@@ -237,8 +236,7 @@ def churning_past_transition(c: Contact, strength: float, transition: float) -> 
 def bearing_drag(c: Contact, strength: float, sliding_share: float) -> Contact:
     """SKF-like ball bearings: rolling phi_ish phi_rs F^0.54 (nu n)^0.6 plus sliding F^(5/3) mu_sl.
 
-    Bearing force is the tooth force; mean diameter 50 mm; ``sliding_share`` is the sliding moment at 150 Nm,
-    in parts of the rolling one at 1500 rpm and 15 mm2/s.
+    F the tooth force; mean diameter 50 mm; ``sliding_share``: moment at 150 Nm over rolling at 1500 rpm and 15 mm2/s.
     """
     n, nu, size = _rpm(c), _viscosity_mm2_s(c), 50.0
     shear = 1 / (1 + 1.84e-9 * (n * size) ** 1.28 * nu**0.64)
@@ -253,7 +251,7 @@ def bearing_drag(c: Contact, strength: float, sliding_share: float) -> Contact:
 def bearing_drag_of_rollers(c: Contact, strength: float, sliding_share: float) -> Contact:
     """SKF-like roller bearings: rolling phi_ish phi_rs F^0.31 (nu n)^0.6 plus sliding F mu_sl.
 
-    Sliding friction is 0.02 in a full film; as the ball bearings otherwise.
+    Sliding friction is 0.02 in a full film; otherwise as for ball bearings.
     """
     n, nu, size = _rpm(c), _viscosity_mm2_s(c), 50.0
     shear = 1 / (1 + 1.84e-9 * (n * size) ** 1.28 * nu**0.64)
@@ -268,8 +266,7 @@ def bearing_drag_of_rollers(c: Contact, strength: float, sliding_share: float) -
 def bearing_drag_of_palmgren(c: Contact, strength: float, loaded: float) -> Contact:
     """Palmgren: M_0 = 1e-7 f_0 (nu n)^(2/3) d^3 N mm, constant below nu n = 2000, and M_1 = f_1 F d.
 
-    f_0 = 2, d = 50 mm. Both shafts; their bearings carry the tooth force, and ``loaded`` is M_1 at 150 Nm over M_0 at
-    1500 rpm and 15 mm2/s.
+    f_0 = 2, d = 50 mm; both shafts, F the tooth force; ``loaded``: M_1 at 150 Nm over M_0 at 1500 rpm and 15 mm2/s.
     """
     load, total = c.rig.conditions["torque_Nm"].astype(float) / 150, np.zeros(len(c.recorded))
     for ratio in (1.0, c.rig.extras["ratio"]):
@@ -280,7 +277,7 @@ def bearing_drag_of_palmgren(c: Contact, strength: float, loaded: float) -> Cont
 
 
 def seal_drag_of_standard(c: Contact, strength: float) -> Contact:
-    """ISO/TR 14179-2: a lip seal on each shaft takes 7.69e-6 d^2 n W (mm, rpm), d = 35 mm, whatever the oil."""
+    """ISO/TR 14179-2: 7.69e-6 d^2 n W per shaft (mm, rpm) in a lip seal, d = 35 mm, for any oil."""
     return _added(c, strength * 7.69e-6 * 35.0**2 * _rpm(c) * (1 + c.rig.extras["ratio"]))
 
 

@@ -1,4 +1,4 @@
-"""Instrument faults: the recorded value differs from what the rig did."""
+"""Instrument faults: deviations of the recorded from the actual value."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ def _scale(c: Contact) -> float:
 
 
 def heat_leak(c: Contact, strength: float, conductance: float) -> Contact:
-    """Heat that a calorimeter misses: P (1 - 0.05 strength) - strength G (T_oil - ambient), G in W/K."""
+    """Heat missed by a calorimeter: P (1 - 0.05 strength) - strength G (T_oil - ambient), G in W/K."""
     over = c.rig.temperature - c.rig.extras["ambient"]
     return replace(c, recorded=c.recorded * (1 - 0.05 * strength) - strength * conductance * over)
 
 
 def heat_leak_by_convection(c: Contact, strength: float, conductance: float) -> Contact:
-    """Walls cooled by free convection, whose film coefficient is of the 0.25th power: G 40 K (T/40 K)^1.25."""
+    """Walls cooled by free convection, film coefficient of the 0.25th power: G 40 K (T/40 K)^1.25."""
     over = np.clip(c.rig.temperature - c.rig.extras["ambient"], 0.0, None) / 40.0
     return replace(c, recorded=c.recorded * (1 - 0.05 * strength) - strength * conductance * 40.0 * over**1.25)
 
@@ -44,16 +44,16 @@ def sensor_drift(c: Contact, strength: float) -> Contact:
 
 
 def warmed_up(sequence: np.ndarray, pace: float) -> np.ndarray:
-    """An amplifier that warms up, from 0 to 1 over the programme: most of the change comes early."""
+    """Warming of an amplifier, from 0 to 1 over the programme: most of the change comes early."""
     return np.asarray(np.expm1(-sequence / pace) / np.expm1(-1 / pace))
 
 
 def crept(sequence: np.ndarray, onset: float) -> np.ndarray:
     """Creep with the logarithm of time, from 0 to 1 over the programme: ln(1 + q/onset)/ln(1 + 1/onset).
 
-    Phillips, Phil. Mag. 9 (1905) 513, and Cottrell 1953 for metals under an even load, cold (below some 0.3 of their
-    melting point) and little strained; load cells and bonded strain gauges creep in the same way within a test. Cited
-    from memory; the ``onset``, a share of the programme, is a common size.
+    Phillips, Phil. Mag. 9 (1905) 513, and Cottrell 1953 for metals under constant load, cold (below some 0.3 of their
+    melting point) and little strained; load cells and bonded strain gauges creep alike within a test. Cited from
+    memory; the ``onset``, a share of the programme, is a common size.
 
     >>> [round(float(done), 3) for done in crept(np.array([0.0, 0.1, 1.0]), 0.01)]
     [0.0, 0.52, 1.0]
@@ -62,10 +62,10 @@ def crept(sequence: np.ndarray, onset: float) -> np.ndarray:
 
 
 def diffused(sequence: np.ndarray) -> np.ndarray:
-    """What has diffused into a half-space by a moment of the programme, over all by its end: q^0.5.
+    """Amount diffused into a half-space by a moment of the programme, over the amount at its end: q^0.5.
 
-    The surface warms so at an even flux of heat (Carslaw and Jaeger 1959), and a sensor takes up moisture so (Crank
-    1975) while its far side feels nothing of it, up to half of saturation. Cited from memory; no constants are taken.
+    Surface warming under constant heat flux (Carslaw and Jaeger 1959), and moisture uptake of a sensor (Crank 1975) up
+    to half of saturation, before its far side is reached. Cited from memory; no constants are taken.
 
     >>> [round(float(done), 3) for done in diffused(np.array([0.0, 0.25, 1.0]))]
     [0.0, 0.5, 1.0]
@@ -95,7 +95,7 @@ def torque_offset(c: Contact, strength: float) -> Contact:
 
 
 def torque_gain(c: Contact, strength: float) -> Contact:
-    """Spans of two torque meters: 0.1 % of the power that goes in, times strength."""
+    """Spans of two torque meters: 0.1 % of the input power, times strength."""
     turning = c.rig.conditions["speed_rpm"].astype(float) * np.pi / 30
     return replace(c, recorded=c.recorded + 1e-3 * strength * c.rig.conditions["torque_Nm"].astype(float) * turning)
 
@@ -147,7 +147,7 @@ def _usual(values: np.ndarray) -> float:
 
 
 def channel(sequence: np.ndarray, zero: bool, gain: bool, drifting_zero: bool) -> tuple[Form, ...]:
-    """Faults of any channel: a wrong zero, a wrong span, a creeping span, and where so a creeping zero."""
+    """Faults of any channel: wrong zero, wrong span, drifting span, and optionally a drifting zero."""
 
     def sensor_offset(state: Any, strength: float) -> Any:
         """y + 0.05 strength of the median reading."""
@@ -201,15 +201,15 @@ def channel(sequence: np.ndarray, zero: bool, gain: bool, drifting_zero: bool) -
 
 
 def zero_of_force(recorded: np.ndarray, load: np.ndarray) -> np.ndarray:
-    """Error of a friction coefficient whose force is off by 0.5 % of the largest friction force, over the load."""
+    """Error of a friction coefficient due to a force error of 0.5 % of the largest friction force, over the load."""
     return np.asarray(0.005 * _usual(recorded) * np.max(np.abs(load)) / np.abs(load))
 
 
 def force_cell(load: np.ndarray, sequence: np.ndarray) -> tuple[Form, ...]:
-    """Faults of the cell that reads a friction force, where a friction coefficient is that force over a load.
+    """Faults of a force cell, for friction coefficients from a measured force over a load.
 
-    A residual zero and a zero that moves from before the test to after it are specified in ISO 376; a zero that follows
-    the temperature of the cell, which takes on that of the rig, is in OIML R 60.
+    A residual zero and a change of zero during the test are specified in ISO 376; a zero that follows the cell
+    temperature, itself approaching the rig temperature, is in OIML R 60.
     """
     if np.ptp(load) == 0:
         return ()

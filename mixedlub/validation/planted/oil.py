@@ -1,4 +1,4 @@
-"""Property effects: another pressure law of viscosity, an oil that ages, teeth warmer than their oil."""
+"""Property effects: another pressure law of viscosity, oil ageing, teeth warmer than their oil."""
 
 from __future__ import annotations
 
@@ -27,18 +27,18 @@ def viscosity_drift(c: Contact, strength: float) -> Contact:
 
 
 def viscosity_sheared_down(c: Contact, strength: float, pace: float) -> Contact:
-    """Polymers break until short ones are left: eta (1 - 0.2 strength (1 - e^(-s/pace))), a tenth at least."""
+    """Polymers break into short chains: eta (1 - 0.2 strength (1 - e^(-s/pace))), a tenth at least."""
     left = np.maximum(1 + 0.2 * strength * np.expm1(-c.rig.sequence / pace), 0.1)
     return replace(c, viscosity=c.viscosity * left[:, None])
 
 
 def viscosity_diluted(c: Contact, strength: float) -> Contact:
-    """A liquid mixes in at an even pace, Arrhenius' law of mixtures: eta exp(0.2 strength s)."""
+    """A liquid mixes in at a constant rate, Arrhenius' law of mixtures: eta exp(0.2 strength s)."""
     return replace(c, viscosity=c.viscosity * np.exp(0.2 * strength * c.rig.sequence)[:, None])
 
 
 def warmed(c: Contact, rise: np.ndarray) -> Contact:
-    """The contact with its oil ``rise`` kelvin warmer, calibration and ageing kept."""
+    """Contact with its oil ``rise`` kelvin warmer, calibration and ageing kept."""
     oil, warm = c.rig.oil, c.temperature + rise
     return replace(
         c,
@@ -51,9 +51,9 @@ def warmed(c: Contact, rise: np.ndarray) -> Contact:
 
 
 def _heated_by_mesh(c: Contact, rise_at: Callable[[np.ndarray], np.ndarray]) -> Contact:
-    """Oil as warm as the teeth, in balance with the mesh loss (W) of the base chain in that oil, one rise a reading.
+    """Contact with oil at tooth temperature, in balance with the mesh loss (W) of the base chain, one rise a reading.
 
-    Five sweeps leave some mK at strength 1: a reading's rise moves its own loss little.
+    Five sweeps leave some mK at strength 1: a reading's rise changes its loss little.
     """
     warm = c
     for _ in range(SWEEPS):
@@ -74,8 +74,7 @@ def bulk_temperature(c: Contact, strength: float) -> Contact:
 def bulk_temperature_by_convection(c: Contact, strength: float) -> Contact:
     """The mesh heats both wheels, oil mist cools rims and faces: strength P/(h A), h = 700 W/(m2 K) (v/10 m/s)^0.5.
 
-    A laminar layer on a turning disc takes heat as the root of its speed, here that of the pitch line; the size of
-    h is a common one, not published.
+    Laminar heat transfer of a rotating disc: root of speed, here of the pitch line; h is a common value, not published.
     """
     diameters = np.array([c.rig.extras["pitch_diameter"], c.rig.extras["wheel_diameter"]])
     area = np.pi * np.sum(diameters * c.rig.width + 0.5 * diameters**2)

@@ -1,4 +1,4 @@
-"""Physics that no catalogue has: what should be answered with "unknown"."""
+"""Physics outside every catalogue: the right answer is "unknown"."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ SPEED, LOAD = ("speed_rpm", "entrainment_speed_m_s"), ("torque_Nm", "load_N")
 
 
 def _place(c: Contact, names: tuple[str, str]) -> np.ndarray:
-    """Where each reading lies between the smallest (0) and the largest (1) of a condition, on a log scale."""
+    """Place of each reading between the smallest (0) and the largest (1) value of a condition, on a log scale."""
     values = np.log(c.rig.conditions[names[not c.rig.is_mesh]].astype(float))
     return np.asarray((values - values.min()) / max(values.max() - values.min(), 1e-9))
 
@@ -25,7 +25,7 @@ def _multiplied(c: Contact, factor: np.ndarray) -> Contact:
 
 
 def speed_band(c: Contact, strength: float, centre: float, width: float) -> Contact:
-    """Friction rises by 20 % strength in one band of speed, as when a part of the rig rings."""
+    """Friction rises by 20 % strength in one band of speed, as at a resonance of the rig."""
     bump = np.exp(-0.5 * ((_place(c, SPEED) - centre) / width) ** 2)
     return _multiplied(c, (1 + 0.2 * strength * bump)[:, None])
 
@@ -39,7 +39,7 @@ def pair_chemistry(c: Contact, strength: float, place: float) -> Contact:
 
 
 def load_threshold(c: Contact, strength: float, centre: float) -> Contact:
-    """Above a load something gives way: friction grows by 25 % strength over a sharp threshold."""
+    """Friction grows by 25 % strength above a sharp load threshold."""
     over = 1 / (1 + np.exp(-(_place(c, LOAD) - centre) / 0.03))
     return _multiplied(c, (1 + 0.25 * strength * over)[:, None])
 
@@ -63,14 +63,14 @@ def speed_ripple(c: Contact, strength: float, waves: float) -> Contact:
 
 
 def cold_light_drag(c: Contact, strength: float) -> Contact:
-    """Mimic of film effects: friction rises where load is light and oil is cold, none elsewhere."""
+    """Mimic of film effects: friction rises at light load and cold oil only."""
     light = np.clip(1 - _place(c, LOAD), 0.0, None) ** 2
     cold = np.exp(-(c.temperature[:, 0] - 40.0) / 15.0)
     return _multiplied(c, (1 + 0.5 * strength * light * cold)[:, None])
 
 
 def slow_excess(c: Contact, strength: float) -> Contact:
-    """Mimic of boundary effects: friction rises at the slowest speeds whatever the surface."""
+    """Mimic of boundary effects: friction rises at the slowest speeds for any surface."""
     slow = np.clip(1 - _place(c, SPEED), 0.0, None) ** 4
     return _multiplied(c, (1 + 0.3 * strength * slow)[:, None])
 

@@ -33,10 +33,10 @@ def _bisected(c: Contact, at_rest: np.ndarray | float, per_stress: np.ndarray) -
 
 
 def _heated(c: Contact, at_rest: np.ndarray | float, per_stress: np.ndarray) -> Contact:
-    """The Eyring stress in balance with the rise it causes, at_rest + per_stress tau, by Newton from below.
+    """Contact with the Eyring stress in balance with its rise, at_rest + per_stress tau, by Newton from below.
 
-    The stress falls with the rise along a convex curve, so the steps never overshoot. Where the rig follows other laws
-    of viscosity or shear than the base model's, their stress is balanced by bisection instead.
+    The stress falls with the rise along a convex curve, so the steps never overshoot. If the rig follows other laws of
+    viscosity or shear, the stress is balanced by bisection.
     """
     if c.rig.laws.keys() & {"thick", "shear"}:
         return replace(c, stress=_bisected(c, at_rest, per_stress))
@@ -64,7 +64,7 @@ def film_heating(c: Contact, strength: float) -> Contact:
 
 
 def film_heated_alone(c: Contact, strength: float) -> Contact:
-    """Crook-Archard across the film alone: mean rise strength q h/(12 k) between walls that stay cold, q = tau v_s."""
+    """Crook-Archard across the film alone: mean rise strength q h/(12 k) between cold walls, q = tau v_s."""
     return _heated(c, 0.0, strength * c.sliding * c.film / (12 * c.rig.oil.conductivity))
 
 
@@ -77,8 +77,7 @@ def walls_heated_alone(c: Contact, strength: float) -> Contact:
 def film_heated_in_layers(c: Contact, strength: float) -> Contact:
     """Nahme: tau asinh(sqrt N)/sqrt(N (1 + N)), N = strength beta tau v_s h/(8 k), the film thinnest in its hot middle.
 
-    Exact where the stress is proportional to a viscosity that falls as exp(-beta T) between walls that stay cold; here
-    beta is that of the oil at rest and tau the cold stress.
+    Exact for stress proportional to viscosity exp(-beta T) between cold walls; beta of the oil at rest, tau if cold.
     """
     heat = strength * c.rig.oil.thinning_at(c.temperature) * c.stress * c.sliding * c.film
     number = np.maximum(heat / (8 * c.rig.oil.conductivity), 1e-12)
@@ -96,9 +95,8 @@ def limiting_shear_stress(c: Contact, strength: float) -> Contact:
 def limiting_stress_in_hot_oil(c: Contact, strength: float, fall: float) -> Contact:
     """Gecim-Winer: tau_L tanh(tau/tau_L), tau_L = (0.045/strength) (1 - fall (T - 40 C)) of the mean Hertz pressure.
 
-    Bair and Winer find limits that fall with temperature (1/K); at 40 C the coefficient is that of a mineral oil.
-    Meant for -20 to 150 C, beyond which a fifth of the limit is kept. Both are cited from memory; 0.045 and the size
-    of the fall were not checked against them.
+    Bair and Winer report limits that fall with temperature (1/K); at 40 C the coefficient is typical of mineral oil.
+    For -20 to 150 C; at least a fifth of the limit is kept. From memory: 0.045 and the size of the fall are unchecked.
     """
     if strength <= 0:
         return c
@@ -117,7 +115,7 @@ def limiting_stress_cut(c: Contact, strength: float) -> Contact:
 def limiting_stress_with_offset(c: Contact, strength: float, offset: float) -> Contact:
     """tau_L [1 - exp(-tau/tau_L)], tau_L = tau_0 + gamma p: (0.045/strength) pi/4 ((1 - offset) p0 + offset 1 GPa).
 
-    The limit at no pressure and its slope, of which ``offset`` is the share of the first at 1 GPa.
+    ``offset``: share of the limit at zero pressure, tau_0, in the limit at 1 GPa.
     """
     if strength <= 0:
         return c
@@ -138,7 +136,7 @@ def coating_insulation(c: Contact, strength: float) -> Contact:
 
 
 def contact_creep(c: Contact, strength: float) -> Contact:
-    """Elastic give of the bodies takes up small slips: tau [1 - exp(-slip/(0.004 strength))]."""
+    """Elastic compliance of the bodies takes up small slips: tau [1 - exp(-slip/(0.004 strength))]."""
     if strength <= 0:
         return c
     slip = c.sliding / c.entrainment

@@ -13,12 +13,12 @@ from mixedlub.validation.rig import Form, Knob, strength
 
 Pair = tuple[float, float]
 Law = Callable[[np.ndarray, Pair, Pair], np.ndarray]
-"""Viscosity (Pa s) at temperatures (C), from the two known temperatures (C) and the viscosities there (Pa s)."""
+"""Viscosity (Pa s) at temperatures (C), from two known temperatures (C) and their viscosities (Pa s)."""
 Scale = Callable[[np.ndarray], np.ndarray]
 
 
 def _through(scale: Scale, celsius: np.ndarray, known: Pair, viscosity: Pair) -> np.ndarray:
-    """Viscosity whose logarithm is a straight line in a scale of temperature, through both known points."""
+    """Viscosity with a logarithm linear in a scale of temperature, through both known points."""
     first, second = scale(np.array(known))
     slope = np.log(viscosity[0] / viscosity[1]) / (first - second)
     return np.asarray(viscosity[0] * np.exp(slope * (scale(celsius) - first)))
@@ -27,8 +27,7 @@ def _through(scale: Scale, celsius: np.ndarray, known: Pair, viscosity: Pair) ->
 def vogel(celsius: np.ndarray, known: Pair, viscosity: Pair, divergence: float) -> np.ndarray:
     """eta = A exp(B/(T - T0)), T0 the ``divergence`` in kelvin (Vogel 1921, Fulcher 1925, Tammann and Hesse 1926).
 
-    At rest the law of Williams, Landel and Ferry, as Yasutomi, Bair and Winer 1984 have it, is the same: T0 = Tg - C2,
-    B = ln(10) C1 C2.
+    At rest equal to Williams, Landel and Ferry in Yasutomi, Bair and Winer 1984: T0 = Tg - C2, B = ln(10) C1 C2.
     """
     return _through(lambda t: 1 / (t + KELVIN - divergence), celsius, known, viscosity)
 
@@ -44,10 +43,10 @@ def andrade(celsius: np.ndarray, known: Pair, viscosity: Pair) -> np.ndarray:
 
 
 def reynolds(celsius: np.ndarray, known: Pair, viscosity: Pair) -> np.ndarray:
-    """eta = A exp(-b T) (Reynolds, Phil. Trans. R. Soc. 177 (1886) 157), found with olive oil near room warmth.
+    """eta = A exp(-b T) (Reynolds, Phil. Trans. R. Soc. 177 (1886) 157), measured on olive oil near room temperature.
 
-    Oils bend away from it: it is too thick between the known temperatures and too thin beyond them on either side.
-    Cited from memory; none of his constants is taken.
+    Real oils deviate: the law is too thick between the known temperatures and too thin beyond them on either side.
+    Cited from memory; no constants are taken.
 
     >>> round(float(reynolds(np.array(50.0), (40.0, 60.0), (0.04, 0.01))), 6)
     0.02
@@ -56,7 +55,7 @@ def reynolds(celsius: np.ndarray, known: Pair, viscosity: Pair) -> np.ndarray:
 
 
 def misstated(oil: Oil, celsius: np.ndarray, error: float) -> np.ndarray:
-    """Viscosity over that of the data sheet where its second viscosity is ``error`` too low, both by ASTM D341.
+    """Viscosity over the data-sheet value if the second viscosity is ``error`` too low, both by ASTM D341.
 
     >>> oil = Oil((40.0, 100.0), (30e-6, 6.2e-6), (18e-9, 14e-9))
     >>> [round(float(ratio), 6) for ratio in misstated(oil, np.array([40.0, 100.0]), 0.05)]
@@ -76,13 +75,13 @@ REYNOLDS, MISSTATED = "Reynolds 1886", "second viscosity misstated"
 
 
 def separates_laws(celsius: np.ndarray, known: Pair) -> bool:
-    """At one temperature, or at the known two, all laws differ by no more than a factor on the viscosity."""
+    """Whether the temperatures separate the laws: at one, or at the known two, they differ only by a factor."""
     levels = set(np.unique(celsius))
     return len(levels) > 1 and not levels <= set(known)
 
 
 def _cooled(c: Contact, strength: float, law: Law) -> Contact:
-    """The oil of the data sheet keeps its two viscosities and follows another law, ``strength`` of the way."""
+    """Contact with another law, ``strength`` of the way, through the two viscosities of the data sheet."""
     oil = c.rig.oil
     first, second = oil.viscosity_at(np.array(oil.temperature))
     ratio = law(c.temperature, oil.temperature, (first, second)) / oil.viscosity_at(c.temperature)
@@ -115,7 +114,7 @@ def cooled_as_misstated(c: Contact, strength: float) -> Contact:
 
 
 def of_contacts(rig: Inputs) -> tuple[Form, ...]:
-    """Forms for a lubricated contact, where its temperatures separate them from a factor on the viscosity."""
+    """Forms for a lubricated contact, if its temperatures separate them from a factor on the viscosity."""
     if not separates_laws(rig.temperature, rig.oil.temperature):
         return ()
     return (
@@ -128,7 +127,7 @@ def of_contacts(rig: Inputs) -> tuple[Form, ...]:
 
 
 def of_unknown_oil(rig: Inputs, labelled: bool) -> tuple[Form, ...]:
-    """Those of an oil without a data sheet: all if two viscosities are stated, else its own at four baths or more."""
+    """Forms for an oil without data sheet: all if two viscosities are stated, otherwise some at four baths or more."""
     forms = of_contacts(rig)
     if labelled:
         return forms

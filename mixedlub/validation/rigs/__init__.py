@@ -1,7 +1,6 @@
-"""The kinds of rig that a battery can hold, one module a kind, and in what shares their cases are dealt.
+"""Kinds of rig in a battery, one module a kind, and the shares of their cases.
 
-A module draws rigs: what a rig is, at which conditions it is read, what calibration may move, and which effects can be
-at work there, most of them in several published forms of which one is drawn.
+A module draws rigs with their conditions, calibrated inputs and effects, most effects in several published forms.
 """
 
 from __future__ import annotations
@@ -16,15 +15,14 @@ from mixedlub.validation.rig import Rig
 from mixedlub.validation.rigs import discs, drives, films, gears, histories, tooth_contacts, viscosities
 
 Partners = tuple[str, tuple[str, ...], float]
-"""An effect, those of which one is planted with it, and the weight of such a pair."""
+"""An effect, its possible partners in a pair, and the weight of such a pair."""
 
 
 @dataclass(frozen=True)
 class Kind:
-    """How rigs of a kind are drawn, and which effects are planted in pairs.
+    """Draw of rigs of a kind, and effects planted in pairs.
 
-    ``draw_without_data_sheet`` draws a rig whose oil has no data sheet, on which the effects of ``needs_data_sheet``
-    cannot be seen.
+    ``draw_without_data_sheet`` draws a rig with an unknown oil, on which effects in ``needs_data_sheet`` are invisible.
     """
 
     draw: Callable[[np.random.Generator], Rig]
@@ -35,14 +33,13 @@ class Kind:
 
 @dataclass(frozen=True)
 class Family:
-    """Kinds that are dealt from one deck of effects, and the shares of their cases.
+    """Kinds with a common deck of effects, and the shares of their cases.
 
-    ``classes`` are the shares of the classes, ``outliers`` by class that of cases with outliers, ``small`` that of
-    cases with few readings, ``mis_set`` that of cases with nothing missing whose whole calibration is one to two
-    prior standard deviations off, ``sd_column`` that of cases whose noise has a column of its own. ``noise`` are
-    the bounds of the noise (percent), ``noise_alone`` those where nothing is missing. ``scattered`` are the bounds
-    of the share of readings that is withheld at random; in a share ``blocks`` of the cases a whole level of a
-    condition with at least ``levels`` levels is withheld too, an inner one or (``ends``) any. All shares are
+    ``classes``: shares of the classes. Shares of cases: ``outliers``, by class, with outliers; ``small``, with few
+    readings; ``mis_set``, among cases without effects, with the whole calibration one to two prior standard deviations
+    off; ``sd_column``, with a noise column. ``noise``: bounds of the noise (percent); ``noise_alone``: without effects.
+    ``scattered``: bounds of the share of readings withheld at random; in a share ``blocks`` of the cases a whole level
+    of a condition with at least ``levels`` levels is withheld too, an inner level or (``ends``) any. All shares are
     judgement: enough cases for each figure of the score.
     """
 
@@ -65,7 +62,7 @@ def _fixed(pairs: Sequence[tuple[str, str]]) -> tuple[Partners, ...]:
 
 
 def _of_other_stages(absent: Sequence[str]) -> tuple[Partners, ...]:
-    """Every physical effect with any effect that acts after another stage."""
+    """Pairs of every physical effect with any effect after another stage."""
     first = {name: forms[0] for name, forms in FORMS.items() if name not in absent}
     return tuple(
         (name, tuple(other for other in first if first[other].hook != form.hook), form.rarity)

@@ -1,4 +1,4 @@
-"""A ball on a flat disc: its contact at each reading, its pressure, and its film by two laws."""
+"""A ball on a flat disc: contact at each reading, pressure, and film by two laws."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from mixedlub.validation.contact import Contact, Inputs, followed, friction_chai
 from mixedlub.validation.rig import Chain
 
 CIRCULAR, SPEED_EXPONENT = 1.03, 0.67
-"""Ellipticity parameter of a circle in the film law of Hamrock and Dowson, and its power of the speed."""
+"""Ellipticity parameter of a circle and exponent of speed in the film law of Hamrock and Dowson."""
 
 
 def inputs_of(settings: Mapping[str, Any], columns: Mapping[str, np.ndarray], moments: np.ndarray) -> Inputs:
-    """The contact at each reading; ``moments`` are the composite ones of both surfaces, in SI units."""
+    """Contact at each reading; ``moments``: composite moments of both surfaces, in SI units."""
     contact = settings["contact"]
     speed = columns["entrainment_speed_m_s"].astype(float)[:, None]
     half = 0.5 * columns["slide_roll_ratio"].astype(float)[:, None] * speed
@@ -54,7 +54,7 @@ def hamrock_dowson(c: Contact) -> Contact:
 
 
 def ball_film_between(c: Contact, way: float, change: float, middle: float) -> Contact:
-    """On the way to the law of all regimes, with another exponent of speed about a viscosity times speed (Pa m)."""
+    """Film between both laws, with another exponent of speed about a viscosity times speed (Pa m)."""
     regression, regimes = hamrock_dowson(c).film, lubricate_ball_in_any_regime(c).film
     turned = (c.viscosity * c.entrainment / middle) ** change
     return replace(c, film=regression ** (1 - way) * regimes**way * turned)
@@ -64,7 +64,7 @@ def lubricate_ball_in_any_regime(c: Contact) -> Contact:
     """Central film of a circle, stiff or soft, isoviscous or not.
 
     Nijenbanning, Venner and Moes, Wear 176 (1994) 217: the asymptotes rigid-isoviscous, elastic-isoviscous,
-    rigid-piezoviscous and elastic-piezoviscous in the groups of Moes (speed as the sum of both), joined by powers.
+    rigid-piezoviscous and elastic-piezoviscous in the groups of Moes (sum of both speeds), joined by powers.
     """
     modulus, radius = c.rig.solid.reduced, c.rig.radius
     speed = 2 * c.viscosity * c.entrainment / (modulus * radius)
@@ -85,7 +85,7 @@ def _film_nm(c: Contact) -> Contact:
 
 
 def film_chain(law: Callable[[Contact], Contact]) -> Chain:
-    """The chain of an interferometer whose films follow a law."""
+    """Chain of an interferometer with the film law."""
     return (
         ("oil", None),
         ("surface", press_ball),

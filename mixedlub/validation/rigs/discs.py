@@ -42,7 +42,7 @@ FRICTION = friction_chain()
 
 
 def inputs_of(case: Case) -> Inputs:
-    """The contact of the discs at each reading."""
+    """Contact of the discs at each reading."""
     contact = case.settings["contact"]
     r1, r2 = (1e-3 * r for r in contact["radius_mm"])
     mean = case.columns["entrainment_speed_m_s"].astype(float)[:, None]
@@ -63,7 +63,7 @@ def inputs_of(case: Case) -> Inputs:
 
 
 def rig_of(case: Case) -> Rig:
-    """The rig that a case describes."""
+    """Rig of the case."""
     forms, outside = forms_on(case, NOT_HERE)
     return Rig(
         settings=case.settings,

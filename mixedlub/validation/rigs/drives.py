@@ -25,12 +25,12 @@ PAIRS = (
 BROAD = 0.5
 OF_TORQUE = ("plain", "plain", "slow", "temperature", "load", "additive", "position", "current")
 OF_FORCE = ("plain", "slow", "temperature", "load", "load", "load", "additive", "position")
-"""Programmes of a drive and of a tribometer, each as often as it is named."""
+"""Programmes of a drive and of a tribometer, each weighted by its number of entries."""
 
 
 @dataclass(frozen=True)
 class Drive:
-    """Dry torque (no sign), drag at each speed over its size at full speed, and what the channel shows."""
+    """Dry torque (unsigned), drag at each speed over its size at full speed, and readings of the channel."""
 
     dry: np.ndarray
     drag: np.ndarray
@@ -73,12 +73,12 @@ def bo_pavelescu(d: Drive, strength: float, width: float, exponent: float) -> Dr
 
 
 def makkar(d: Drive, strength: float, width: float) -> Drive:
-    """One less a hyperbolic tangent."""
+    """0.3 strength of the level times 1 - tanh(|v|/width)."""
     return _added(d, 0.3 * strength * d.level * (1 - np.tanh(np.abs(d.speed) / width)) * d.sign)
 
 
 def unlike_flanks(d: Drive, strength: float, viscous: float) -> Drive:
-    """Dry part and drag differ between the directions, not quite by the same share."""
+    """Dry part and drag that differ between the directions, by slightly unequal shares."""
     side = 0.1 * strength * d.sign
     return replace(d, dry=d.dry * (1 + side), drag=d.drag * (1 + viscous * side))
 
@@ -161,15 +161,15 @@ def _additive_forms(content: np.ndarray) -> tuple[Form, ...]:
         return replace(d, dry=d.dry * np.clip(1 - 0.35 * strength * covered, 0.02, None))
 
     def filled(d: Drive, strength: float, half: float) -> Drive:
-        """1 - e^(-v/half) of the film, v over full speed."""
+        """1 - e^(-v/half) of the film, v the additive content over its maximum."""
         return lowered(d, strength, -np.expm1(-share / half))
 
     def hill(d: Drive, strength: float, half: float) -> Drive:
-        """v^1.4/(v^1.4 + half^1.4) of the film, v over full speed."""
+        """v^1.4/(v^1.4 + half^1.4) of the film, v the additive content over its maximum."""
         return lowered(d, strength, share**1.4 / (share**1.4 + half**1.4))
 
     def temkin(d: Drive, strength: float, half: float) -> Drive:
-        """ln(1 + v/half)/ln(1 + 1/half) of the film, v over full speed."""
+        """ln(1 + v/half)/ln(1 + 1/half) of the film, v the additive content over its maximum."""
         return lowered(d, strength, np.log1p(share / half) / np.log1p(1 / half))
 
     knobs = (strength(0.0, 2.4), Knob("half", 0.02, 0.6, (0.05, 0.3)))
@@ -202,14 +202,14 @@ def _position_forms(angle: np.ndarray) -> tuple[Form, ...]:
 
 
 def _current_forms(motor: np.ndarray) -> tuple[Form, ...]:
-    """The torque comes from a current, which has a column of its own."""
+    """Forms for a torque derived from a motor current, recorded in a separate column."""
 
     def lost(d: Drive, strength: float, bend: float, law: Callable[[np.ndarray], np.ndarray]) -> Drive:
         ratio = np.abs(motor) / np.abs(motor).max()
         return replace(d, recorded=d.recorded + motor * 0.06 * strength * (1 - bend + bend * law(ratio)))
 
     def saturating(d: Drive, strength: float, bend: float) -> Drive:
-        """The constant falls as k/(1 + c T): the torque that is not there."""
+        """Missing torque: the constant falls as k/(1 + c T)."""
         return lost(d, strength, bend, lambda ratio: 2 * ratio / (1 + ratio))
 
     def bent(d: Drive, strength: float, bend: float) -> Drive:
@@ -225,15 +225,15 @@ def _current_forms(motor: np.ndarray) -> tuple[Form, ...]:
 
 def _outside(columns: dict[str, np.ndarray], time: np.ndarray) -> tuple[Form, ...]:
     def ringing(d: Drive, strength: float, centre: float, width: float) -> Drive:
-        """Friction is higher in one band of speed, where the drive rings."""
+        """Friction rises in one band of speed, at a resonance of the drive."""
         return _added(d, 0.2 * strength * d.level * np.exp(-0.5 * ((np.abs(d.speed) - centre) / width) ** 2) * d.sign)
 
     def lifting(d: Drive, strength: float, where: float) -> Drive:
-        """Beyond a speed a seal lifts off and its friction is gone."""
+        """A seal lifts off beyond a speed and its friction vanishes."""
         return _added(d, -0.15 * strength * d.level * (np.abs(d.speed) > where) * d.sign)
 
     def stepped(d: Drive, strength: float, when: float) -> Drive:
-        """From one moment on friction is another."""
+        """Friction changes from one moment on."""
         return _added(d, 0.15 * strength * d.level * (time > when) * d.sign)
 
     def dented(d: Drive, strength: float, where: float) -> Drive:
@@ -253,7 +253,7 @@ def _outside(columns: dict[str, np.ndarray], time: np.ndarray) -> tuple[Form, ..
 
 
 def _speeds(rng: np.random.Generator, top: float, creep: bool) -> np.ndarray:
-    """Speeds of both directions, evenly spaced or geometric; from a creep on, over three to four decades."""
+    """Speeds of both directions, evenly spaced or geometric; three to four decades if ``creep``."""
     count = int(rng.integers(14, 25) if creep else rng.integers(8, 17))
     if creep:
         half = np.geomspace(top / between(rng, 1000, 20000), top, count)

@@ -25,7 +25,7 @@ PAIRS = (
     ("viscosity_temperature_law", "zero_drift"),
 )
 NEEDS_DATA_SHEET = frozenset({"sensor_gain"})
-"""Faults that no reading can show of an oil without a data sheet, whose viscosity level is free."""
+"""Faults invisible for an oil without data sheet, since its viscosity level is free."""
 
 
 def joined_by_cubes(c: Contact, strength: float) -> Contact:
@@ -34,7 +34,7 @@ def joined_by_cubes(c: Contact, strength: float) -> Contact:
 
 
 def squeezed_out(c: Contact, strength: float) -> Contact:
-    """A layer of 8 nm strength that gives way as the fluid film grows: h + b e^(-h/(3 b))."""
+    """A layer of 8 nm strength that gives way to the growing fluid film: h + b e^(-h/(3 b))."""
     if strength <= 0:
         return c
     layer = 8e-9 * strength
@@ -116,7 +116,7 @@ def _fringe_forms(spacer: float, period: float, onset: tuple[float, float], coun
 
 
 def _span(values: np.ndarray) -> np.ndarray:
-    """Place between the smallest and the largest, on a log scale."""
+    """Place between the smallest and the largest value, on a log scale."""
     logs = np.log(values)
     return np.asarray((logs - logs.min()) / max(np.ptp(logs), 1e-9))
 
@@ -129,7 +129,7 @@ def _outside(columns: dict[str, np.ndarray]) -> tuple[Form, ...]:
     celsius = columns["oil_temperature_C"][:, None]
 
     def trembling(c: Contact, strength: float, centre: float, width: float) -> Contact:
-        """The rig rings in one band of speed and the mean film is off there."""
+        """The rig resonates in one band of speed and the mean film deviates."""
         return replace(c, film=c.film * (1 + 0.1 * strength * np.exp(-0.5 * ((place - centre) / width) ** 2)))
 
     def waves(c: Contact, strength: float, count: float) -> Contact:
@@ -148,7 +148,7 @@ def _outside(columns: dict[str, np.ndarray]) -> tuple[Form, ...]:
         return replace(c, film=c.film * (load / load.min()) ** (-0.15 * strength))
 
     def one_bath(c: Contact, strength: float) -> Contact:
-        """At the middle temperature the bath had another temperature than its thermometer."""
+        """The bath temperature deviates from its thermometer at the middle level."""
         levels = np.unique(celsius)
         return replace(c, film=c.film * (1 + 0.1 * strength * (celsius == levels[len(levels) // 2])))
 
@@ -199,7 +199,7 @@ def _programme(rng: np.random.Generator) -> tuple[dict[str, np.ndarray], bool]:
 
 
 def _interferometer(rng: np.random.Generator) -> tuple[Inputs, dict[str, Any], dict[str, np.ndarray], bool]:
-    """A steel ball on a disc, its oil and its programme: rig, case with all that is known, columns, repeats."""
+    """A steel ball on a disc, oil and programme: rig, case with all known data, columns, repeats."""
     columns, again = _programme(rng)
     disc = pick(rng, ((75.0, 0.22), (81.0, 0.21), (430.0, 0.25)))
     priors = {"viscosity": pick(rng, (0.05, 0.1, 0.2)), "pressure_viscosity": pick(rng, (0.06, 0.12))}
@@ -220,7 +220,7 @@ def _interferometer(rng: np.random.Generator) -> tuple[Inputs, dict[str, Any], d
 
 
 def draw(rng: np.random.Generator) -> Rig:
-    """An interferometer whose oil has a data sheet; films by the regression, its exponent within what others have."""
+    """An interferometer with known oil; films by the regression, its exponent within the spread of published values."""
     inputs, settings, columns, again = _interferometer(rng)
     priors = settings["uncertainty"]
     disclosed = with_data_sheet(inputs, priors["viscosity"], priors["pressure_viscosity"])
@@ -238,7 +238,7 @@ def draw(rng: np.random.Generator) -> Rig:
 
 
 def draw_without_data_sheet(rng: np.random.Generator) -> Rig:
-    """An interferometer whose oil has no data sheet; films by the law of all regimes at its true properties."""
+    """An interferometer with unknown oil; films by the law of all regimes at its true properties."""
     inputs, settings, columns, again = _interferometer(rng)
     disclosed, sections = without_data_sheet(rng, inputs)
     kept = {name: table for name, table in settings.items() if name not in ("lubricant", "uncertainty")}
@@ -259,7 +259,7 @@ def draw_without_data_sheet(rng: np.random.Generator) -> Rig:
 
 
 def _read(rng: np.random.Generator, rig: Rig, sheet: bool) -> Rig:
-    """The rig with its instrument and all that can be at work; only a data ``sheet`` shows a wrong span."""
+    """Rig with its instrument and all possible effects; a wrong span is visible only with a data ``sheet``."""
     columns = rig.columns
     nominal = rig.records(np.zeros(len(rig.names)), ())
     period, spacer = rounded(rng.uniform(185, 215)), rounded(rng.uniform(100, 500))

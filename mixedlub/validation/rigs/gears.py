@@ -1,4 +1,4 @@
-"""Power loss of spur gear pairs: kinematics from the involute, load sharing, every pairing of surfaces at each load."""
+"""Power loss of spur gear pairs: involute kinematics, load sharing, all pairings of surfaces at each load."""
 
 from __future__ import annotations
 
@@ -38,9 +38,9 @@ from mixedlub.validation.sample_rig import (
 from profiles.errors import InputError
 
 NOT_HERE = ("contact_creep", "odd_slip_power")
-"""Effects of one slide-roll ratio, of which every gear reading mixes many."""
+"""Effects of one slide-roll ratio; every gear reading mixes many."""
 COARSE, FINE = 48, 240
-"""Points along the path of contact: of the fits of rivals, and of the recordings."""
+"""Points along the path of contact: for rival fits, and for recordings."""
 COATED = 0.12
 """Share of rigs with a coating."""
 POWER_LOSS = friction_chain(record=record_power)
@@ -63,7 +63,7 @@ GEARS: tuple[dict[str, Any], ...] = (
 class Gears:
     """A spur pair in the transverse plane; lengths in m, pinion first.
 
-    ``tip`` are tip radii; ``centre`` the operating centre distance, from the shifts if None.
+    ``tip``: tip radii; ``centre``: operating centre distance, derived from the shifts if None.
     """
 
     teeth: tuple[int, int]
@@ -163,7 +163,7 @@ def gears_of(settings: Mapping[str, Any]) -> Gears:
 
 
 def share_at(path: ContactPath, rows: np.ndarray | None, torque: np.ndarray, position: np.ndarray) -> np.ndarray:
-    """Load share, readings by points: from rows of (torque, roll angle in degrees, share); None is equal."""
+    """Load share, readings by points, from rows of (torque, roll angle in degrees, share); equal shares if None."""
     if rows is None:
         single = (position > path.low_single) & (position < path.high_single)
         return np.broadcast_to(np.where(single, 1.0, 0.5), (len(torque), len(position)))
@@ -175,7 +175,7 @@ def share_at(path: ContactPath, rows: np.ndarray | None, torque: np.ndarray, pos
 
 
 def draw_share(rng: np.random.Generator, settings: dict[str, Any], torques: list[float]) -> np.ndarray | None:
-    """Load-share rows: ISO-like ramps, or elastic-like ones that depend on torque; None is equal sharing."""
+    """Load-share rows: ISO-like ramps, or elastic-like ramps that depend on torque; None for equal sharing."""
     style = rng.choice(["rigid", "ramp", "elastic"], p=[0.2, 0.3, 0.5])
     if style == "rigid":
         return None
@@ -197,7 +197,7 @@ def draw_share(rng: np.random.Generator, settings: dict[str, Any], torques: list
 
 
 def inputs_of(case: Case, points: int = FINE, positions: np.ndarray | None = None) -> Inputs:
-    """The contacts of a gear pair on ``points`` midpoints of the path, or at ``positions`` (m)."""
+    """Contacts of a gear pair on ``points`` midpoints of the path, or at ``positions`` (m)."""
     gears = gears_of(case.settings)
     path = path_of_contact(gears)
     length = (path.end - path.start) / points
@@ -234,7 +234,7 @@ def inputs_of(case: Case, points: int = FINE, positions: np.ndarray | None = Non
 
 
 def forms_on(case: Case, absent: tuple[str, ...]) -> tuple[tuple[Form, ...], tuple[Form, ...]]:
-    """Effects of the catalogue and others that can be planted; insulation by a coating only where there is one."""
+    """Effects inside and outside the catalogue that can be planted; coating insulation only on coated surfaces."""
     coated = any("coating" in surface for surface in case.settings["surfaces"].values())
     absent = absent if coated else (*absent, "coating_insulation")
     named = tuple(form for name, forms in FORMS.items() if name not in absent for form in forms)
@@ -242,7 +242,7 @@ def forms_on(case: Case, absent: tuple[str, ...]) -> tuple[tuple[Form, ...], tup
 
 
 def rig_of(case: Case) -> Rig:
-    """The rig that a case describes."""
+    """Rig of the case."""
     inputs = lru_cache(maxsize=None)(lambda points: inputs_of(case, points))
     forms, outside = forms_on(case, NOT_HERE)
     return Rig(

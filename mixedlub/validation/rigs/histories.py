@@ -1,4 +1,4 @@
-"""Friction in the course of time: at conditions that are held, in traction curves, in repeated Stribeck curves."""
+"""Friction over time: under constant conditions, in traction curves, in repeated Stribeck curves."""
 
 from __future__ import annotations
 
@@ -52,13 +52,13 @@ BARE: Chain = (("boundary", None), ("loss", lambda t: replace(t, recorded=t.leve
 
 
 def _breaks(time: np.ndarray) -> tuple[Form, ...]:
-    """What no slow state of a surface does."""
+    """Forms of friction that no slow surface state produces."""
 
     def multiplied(state: Any, factor: np.ndarray) -> Any:
         return replace(state, recorded=state.recorded * factor)
 
     def humming(state: Any, strength: float, waves: float) -> Any:
-        """Something turns slowly in the rig: 14 to 25 swings in the programme."""
+        """A slow rotation in the rig: 14 to 25 swings in the programme."""
         return multiplied(state, 1 + 0.06 * strength * np.sin(2 * np.pi * waves * time))
 
     def chattering(state: Any, strength: float, waves: float) -> Any:
@@ -82,7 +82,7 @@ def _all(found: dict[str, tuple[Form, ...]]) -> tuple[Form, ...]:
 
 
 def _numbered(columns: dict[str, np.ndarray], seconds: float) -> dict[str, np.ndarray]:
-    """Run numbers and times; what is known of the place in the programme comes from the time alone."""
+    """Columns with run numbers and times; the place in the programme follows from the time alone."""
     columns = repeated(columns, 1)
     count = len(columns["run"])
     columns["time_s"] = np.round(np.linspace(seconds / count, seconds, count), 1)
@@ -90,7 +90,7 @@ def _numbered(columns: dict[str, np.ndarray], seconds: float) -> dict[str, np.nd
 
 
 def _held(rng: np.random.Generator, settings: dict[str, Any], columns: dict[str, np.ndarray], time: np.ndarray) -> Rig:
-    """A track whose oil and surfaces are not described: a constant coefficient of a broad prior is the base model."""
+    """A track with unknown oil and surfaces: the base model is a constant coefficient with a broad prior."""
     middle = between(rng, 0.04, 0.13)
     slip = columns.get("slide_roll_ratio", np.ones(len(time)))
 
@@ -122,7 +122,7 @@ def _settings(**sections: Any) -> dict[str, Any]:
 
 
 def draw_steady(rng: np.random.Generator) -> Rig:
-    """Friction at conditions that do not change, as a log or as means of rubbing steps."""
+    """Friction under constant conditions, as a log or as means of rubbing steps."""
     count = int(pick(rng, (24, 40, 60, 100, 200)))
     columns = _numbered({"placeholder": np.zeros(count)}, between(rng, 600, 2e5))
     del columns["placeholder"]
@@ -134,7 +134,7 @@ def draw_steady(rng: np.random.Generator) -> Rig:
 
 
 def draw_loads(rng: np.random.Generator) -> Rig:
-    """Friction at one speed under a few loads, step by step up, or up and down, again and again."""
+    """Friction at one speed under a few loads in repeated steps, up, or up and down."""
     least = between(rng, 2, 20, 2)
     loads = [rounded(w, 3) for w in np.geomspace(least, between(rng, 4, 15) * least, int(rng.integers(3, 6)))]
     steps = np.repeat(loads if rng.random() < 0.5 else [*loads, *loads[-2:0:-1]], int(rng.integers(1, 4)))
@@ -145,7 +145,7 @@ def draw_loads(rng: np.random.Generator) -> Rig:
 
 
 def draw_traction(rng: np.random.Generator) -> Rig:
-    """Traction curves on one track again and again, slips from below one per mille on."""
+    """Repeated traction curves on one track, slips from below one per mille on."""
     slips = np.array([rounded(s, 3) for s in np.geomspace(0.0006, between(rng, 0.1, 0.3), int(rng.integers(10, 19)))])
     cycles = int(rng.integers(4, 11))
     columns = _numbered({"slide_roll_ratio": np.tile(slips, cycles)}, between(rng, 3000, 3e5))
@@ -154,7 +154,7 @@ def draw_traction(rng: np.random.Generator) -> Rig:
 
 
 def _curves(rng: np.random.Generator) -> np.ndarray:
-    """Bath, load, slip and falling speed of every reading: one Stribeck curve after the other, over and over."""
+    """Bath, load, slip and falling speed of every reading: repeated sequences of Stribeck curves."""
     speeds = np.array([rounded(u, 3) for u in np.geomspace(between(rng, 0.01, 0.03), 3.0, int(rng.integers(8, 14)))])
     baths = pick(rng, ([60.0], [100.0], [60.0, 100.0], [40.0, 70.0, 100.0], [25.0, 60.0, 95.0, 130.0]))
     slips = pick(rng, ([0.5], [0.5], [0.1, 0.5], [0.05, 0.3, 1.0]))

@@ -45,7 +45,7 @@ FRICTION = friction_chain()
 
 
 def at_angles(case: Case, angles: np.ndarray) -> Inputs:
-    """The rig of a gear pair with one contact a reading: readings by 1."""
+    """Inputs of a gear pair with one contact a reading: readings by 1."""
     path = gears.path_of_contact(gears.gears_of(case.settings))
     levels, place = np.unique(angles, return_inverse=True)
     whole = gears.inputs_of(case, positions=np.radians(levels) * path.base_radius[0])
@@ -71,11 +71,11 @@ def _outside(rig: Inputs, angles: np.ndarray) -> tuple[Form, ...]:
     approaching = (rig.speed_1 < rig.speed_2).astype(float)
 
     def pitted(c: Contact, strength: float, where: float) -> Contact:
-        """A pit on the flank: friction is another over a tenth of the path."""
+        """A pit on the flank: friction deviates over a tenth of the path."""
         return replace(c, friction=c.friction * (1 + 0.2 * strength * np.exp(-0.5 * ((place - where) / 0.05) ** 2)))
 
     def biting(c: Contact, strength: float) -> Contact:
-        """Approach rubs otherwise than recess."""
+        """Friction in approach differs from friction in recess."""
         return replace(c, friction=c.friction * (1 + 0.15 * strength * approaching))
 
     either = strength(-4.0, 8.0)
@@ -92,7 +92,7 @@ def _outside(rig: Inputs, angles: np.ndarray) -> tuple[Form, ...]:
 
 
 def _programme(rng: np.random.Generator, case: Case, angles: np.ndarray) -> dict[str, np.ndarray]:
-    """Some of the pairings, torques, speeds and temperatures of a gear case, over all roll angles."""
+    """Some pairings, torques, speeds and temperatures of a gear case, over all roll angles."""
     many = {"torque_Nm": 2, "speed_rpm": 4, "oil_temperature_C": 2}
 
     def some(name: str) -> list[float]:

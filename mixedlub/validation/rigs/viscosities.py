@@ -27,10 +27,9 @@ PAIRS = (
 
 @dataclass(frozen=True)
 class Sample:
-    """Viscosity at rest (Pa s), slope against pressure (1/Pa), log rise with pressure, what is shown (mPa s).
+    """Viscosity at rest (Pa s), slope against pressure (1/Pa), log rise with pressure, reading (mPa s).
 
-    ``by_walther`` is what ASTM D341 gives at rest, ``known`` the temperatures of the data sheet (C) and the viscosities
-    of the sample there (Pa s).
+    ``by_walther``: viscosity at rest by ASTM D341. ``known``: data-sheet temperatures (C) and viscosities there (Pa s).
     """
 
     celsius: np.ndarray
@@ -68,7 +67,7 @@ def roelands_of_1966(s: Sample, strength: float, modulus: float) -> Sample:
 
 
 def mcewen_paluch(s: Sample, strength: float, power: float, glass: float) -> Sample:
-    """McEwen's factor, and one that runs away at a glass pressure (GPa) that grows with temperature."""
+    """McEwen's factor, and a factor diverging at a glass pressure (GPa) that grows with temperature."""
     runaway = (glass + 0.008 * s.celsius) * 1e9
     bent = power * np.log1p(0.8 * s.slope * s.pressure / power)
     return _part(s, bent + 0.2 * s.slope * runaway * s.pressure / np.maximum(runaway - s.pressure, 1e7), strength)
@@ -80,7 +79,7 @@ def bode(s: Sample, strength: float, stiffening: float) -> Sample:
 
 
 def _tait(s: Sample) -> np.ndarray:
-    """Volume over that at rest: 1 - ln(1 + p (1 + K')/K0)/(1 + K'), K0 softening with temperature."""
+    """Volume over the volume at rest: 1 - ln(1 + p (1 + K')/K0)/(1 + K'), K0 softening with temperature."""
     bulk = 9e9 * np.exp(-6.5e-3 * (s.celsius + KELVIN))
     return np.asarray(1 - np.log1p(s.pressure * 11.0 / bulk) / 11.0)
 
@@ -104,11 +103,11 @@ def _drifts(time: np.ndarray) -> tuple[Form, ...]:
         return replace(s, resting=s.resting * np.clip(1 + 0.2 * strength * time, 0.05, None))
 
     def gathering(s: Sample, strength: float) -> Sample:
-        """The rest after a light fraction evaporates at an even pace."""
+        """Remainder after a light fraction evaporates at a constant rate."""
         return replace(s, resting=s.resting / np.clip(1 - 0.17 * strength * time, 0.05, None))
 
     def hot(s: Sample, strength: float) -> Sample:
-        """Oxidation: the pace doubles every 12 K, summed over the programme."""
+        """Oxidation: the rate doubles every 12 K, summed over the programme."""
         pace = np.exp(np.log(2) * (s.celsius - 40.0) / 12.0)
         done = np.cumsum(pace) / pace.sum()
         return replace(s, resting=s.resting * np.exp(0.2 * strength * done))
@@ -122,7 +121,7 @@ def _drifts(time: np.ndarray) -> tuple[Form, ...]:
 
 
 def _cooled(s: Sample, strength: float, law: cooling.Law) -> Sample:
-    """The sample keeps its two known viscosities and follows another law than ASTM D341, ``strength`` of the way."""
+    """Sample with another law than ASTM D341, ``strength`` of the way, through its two known viscosities."""
     return replace(s, resting=s.resting * (law(s.celsius, *s.known) / s.by_walther) ** strength)
 
 
@@ -190,7 +189,7 @@ def _outside(columns: dict[str, np.ndarray], time: np.ndarray) -> tuple[Form, ..
         return multiplied(s, 1 + 0.3 * strength * below)
 
     def lagging(s: Sample, strength: float) -> Sample:
-        """The sample is behind its thermometer on ramps: colder while heated, warmer while cooled."""
+        """The sample lags its thermometer on ramps: colder while heated, warmer while cooled."""
         return multiplied(s, np.exp(0.04 * strength * rate))
 
     def refilled(s: Sample, strength: float, when: float) -> Sample:
@@ -198,7 +197,7 @@ def _outside(columns: dict[str, np.ndarray], time: np.ndarray) -> tuple[Form, ..
         return multiplied(s, 1 + 0.1 * strength * (time > when))
 
     def freezing(s: Sample, strength: float, where: float) -> Sample:
-        """Above a pressure part of the sample is solid: a step."""
+        """A part of the sample solidifies above a pressure: a step."""
         return multiplied(s, 1 + 0.3 * strength * (s.pressure > where * s.pressure.max()))
 
     def one_cell(s: Sample, strength: float) -> Sample:
@@ -246,7 +245,7 @@ def _cycle(rng: np.random.Generator) -> dict[str, np.ndarray]:
 
 @dataclass(frozen=True)
 class Fluid:
-    """The oil of a sample at the temperatures of its programme; without a data sheet its properties are free."""
+    """Oil of a sample at the temperatures of its programme; without a data sheet its properties are free."""
 
     oil: Oil
     celsius: np.ndarray
@@ -261,7 +260,7 @@ class Fluid:
         return ("viscosity", "steepness", "bow", *(("pressure_viscosity", "warmth") if self.pressed else ()))
 
     def resting(self, z: np.ndarray, celsius: np.ndarray) -> np.ndarray:
-        """ASTM D341; a sample without a data sheet has a level, a steepness and a bow of its own."""
+        """Viscosity at rest by ASTM D341; without a data sheet with free level, steepness and bow."""
         by = dict(zip(self.names, z))
         if self.named:
             return np.asarray(self.oil.viscosity_at(celsius) * np.exp(self.priors["viscosity"] * by["viscosity"]))
@@ -281,13 +280,13 @@ class Fluid:
 
     @property
     def beyond_the_data_sheet(self) -> bool:
-        """Whether the temperatures separate the laws: others than the two of a data sheet, or four without one."""
+        """Whether the temperatures separate the laws: more than the two of a data sheet, or four without one."""
         if self.named:
             return cooling.separates_laws(self.celsius, self.oil.temperature)
         return len(np.unique(self.celsius)) > 3
 
     def slope(self, z: np.ndarray) -> np.ndarray:
-        """Barus coefficient, a straight line in temperature; without a data sheet its level and tilt are free."""
+        """Barus coefficient, linear in temperature; without a data sheet its level and tilt are free."""
         by = dict(zip(self.names, z))
         given = self.oil.pressure_viscosity_at(self.celsius)
         width = self.priors["pressure_viscosity"] if self.named else 0.3
@@ -301,7 +300,7 @@ class Fluid:
 
 
 def draw(rng: np.random.Generator) -> Rig:
-    """A viscometer, its sample named or not, its programme."""
+    """A viscometer with a known or unknown sample and its programme."""
     moving = rng.random() < 0.4
     columns, again = (_cycle(rng), False) if moving else _table(rng)
     named = rng.random() < 0.5

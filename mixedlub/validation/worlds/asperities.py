@@ -41,8 +41,8 @@ def greenwood_tripp(c: Contact) -> Asperities:
     """Pairs of summits that meet off their axes (Greenwood and Tripp, Proc. Instn Mech. Engrs 185 (1970) 625).
 
     Between two rough surfaces of densities D, radii R and composite rms height s: area pi^2 D1 R1 D2 R2 s^2 F_2(h/s),
-    pressure (16 pi/15) E* D1 D2 (R1 + R2) [R1 R2/(R1 + R2)]^1/2 s^5/2 F_5/2(h/s); for like surfaces the paper's
-    equations. The separation is that of the mean planes, for heights normal about them.
+    pressure (16 pi/15) E* D1 D2 (R1 + R2) [R1 R2/(R1 + R2)]^1/2 s^5/2 F_5/2(h/s); for equal surfaces the paper's
+    equations. Separation of the mean planes, heights normal about them.
     """
     m0, m2, m4 = (c.rig.shares[:, :, k].T[:, :, None] * moment for k, moment in enumerate((c.m0, c.m2, c.m4)))
     density = m4 / (m2 * 6 * np.pi * np.sqrt(3.0))
@@ -60,8 +60,8 @@ def greenwood_tripp(c: Contact) -> Asperities:
 def bush_gibson_thomas(c: Contact) -> Asperities:
     """All summits of a Gaussian surface, each an ellipse (Bush, Gibson and Thomas, Wear 35 (1975) 87).
 
-    Heights, curvatures and ellipses are joint, where the base model has one radius. Elastic, isotropic, and summits
-    that do not meet: areas well below one.
+    Joint distribution of heights, curvatures and ellipses instead of the base model's single radius. Elastic,
+    isotropic, without interaction of summits: areas well below one.
     """
     nayak, height = c.m0 * c.m4 / c.m2**2, c.roughness
     area, pressure = random_surface.tables()
@@ -75,8 +75,8 @@ def bush_gibson_thomas(c: Contact) -> Asperities:
 def persson(c: Contact) -> Asperities:
     """erf(sqrt(2) p/(E* g)) with the rms slope g = sqrt(2 m2) (Persson, J. Chem. Phys. 115 (2001) 3840).
 
-    The theory gives the area at a pressure; how the pressure falls with separation needs the whole spectrum, and is
-    that of Greenwood and Williamson here. Elastic, without adhesion, up to full contact.
+    The theory gives the area at a pressure; the pressure against separation needs the whole spectrum and is taken from
+    Greenwood and Williamson. Elastic, without adhesion, up to full contact.
     """
     from scipy.special import erf
 

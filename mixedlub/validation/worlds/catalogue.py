@@ -1,4 +1,4 @@
-"""Which laws a rig can follow, and the world that is drawn of them."""
+"""Laws available to a rig, and the random world drawn from them."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ from mixedlub.validation.worlds import films, mixed, oils, sharing, traction
 TOGETHER = (FILM, SHEAR, PRESSURE, ASPERITIES)
 """A rig of full physics: film, traction averaged over the contact, viscosity and asperities all follow other laws."""
 SPOILT = {name: frozenset({ASPERITIES, BALANCE, MIXTURE}) for name in ("skewed_heights", "asperity_plasticity")}
-"""Effects whose own law of the real area takes the place of the base model's, and the laws that they would overrule."""
+"""Effects with a law of real area that replaces the base model's, and the laws overruled by them."""
 SHOWN = 2e-3
-"""Relative change of some reading from which a law counts as another one than the base model's."""
+"""Smallest relative change of a reading at which a law differs from the base model's."""
 
 _CONTACT = (*mixed.THEORIES, *mixed.BALANCES, *mixed.MIXTURES, *traction.EVERY, *oils.OF_CONTACTS, *oils.COOLING)
 OF_KIND: dict[str, tuple[Law, ...]] = {
@@ -43,7 +43,7 @@ OF_KIND: dict[str, tuple[Law, ...]] = {
 
 @dataclass(frozen=True)
 class Followed:
-    """A law as a rig follows it, with the knobs that were drawn."""
+    """A law followed by a rig, with its drawn knobs."""
 
     law: Law
     values: dict[str, float]
@@ -57,24 +57,24 @@ World = tuple[Followed, ...]
 
 
 def in_order(world: Sequence[Followed]) -> World:
-    """The law of temperature first: the others read the viscosity at rest."""
+    """Laws with the temperature law first: the others read the viscosity at rest."""
     return tuple(sorted(world, key=lambda one: one.law.id != TEMPERATURE))
 
 
 def following(rig: Rig, world: Sequence[Followed]) -> Rig:
-    """The rig in a world: its model stays the base model, and effects that its laws take the place of are left out."""
+    """Rig in a world: its model stays the base model, and effects replaced by the laws are left out."""
     ids = {one.law.id for one in world}
     forms = tuple(form for form in rig.forms if form.id not in LAWS and not SPOILT.get(form.id, frozenset()) & ids)
     return replace(rig, followed=tuple(one.act for one in in_order(world)), forms=forms)
 
 
 def has_contact(rig: Rig) -> bool:
-    """Whether the case describes what the laws are laws of."""
+    """Whether the case describes the subject of the laws: a sample, or a lubricated contact."""
     return rig.kind == "viscosity" or "lubricant" in rig.settings
 
 
 def shows(rig: Rig, law: Law) -> bool:
-    """Whether the readings of a rig tell the law from the base model's; those with needs are taken to."""
+    """Whether the readings of a rig distinguish the law from the base model's; assumed for laws with needs."""
     if law.needs:
         return True
     z = np.zeros(len(rig.names))
@@ -83,7 +83,7 @@ def shows(rig: Rig, law: Law) -> bool:
 
 
 def laws_on(rig: Rig) -> dict[str, tuple[Law, ...]]:
-    """The laws that a rig can follow and that show in its readings, by id."""
+    """Laws that a rig can follow and that change its readings, by id."""
     if not has_contact(rig):
         return {}
     every = [law for law in OF_KIND.get(rig.kind, ()) if shows(rig, law)]
@@ -92,7 +92,7 @@ def laws_on(rig: Rig) -> dict[str, tuple[Law, ...]]:
 
 
 def drawn(rng: np.random.Generator, rig: Rig, ids: Sequence[str]) -> World | None:
-    """A law of each id with its knobs, or None where the rig has not all of them."""
+    """A law of each id with its knobs; None if the rig lacks any of them."""
     pool = laws_on(rig)
     if not set(ids) <= set(pool):
         return None

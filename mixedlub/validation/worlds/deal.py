@@ -1,4 +1,4 @@
-"""A battery of rigs that follow other laws: what its cases hold, and which steps follow another law in each."""
+"""A battery of rigs that follow other laws: contents of the cases, and steps with another law."""
 
 from __future__ import annotations
 
@@ -26,15 +26,15 @@ from mixedlub.validation.worlds.catalogue import OF_KIND, SPOILT, TOGETHER, has_
 from profiles.errors import InputError
 
 SHARES = dict(zip(CLASSES, (0.28, 0.36, 0.06, 0.05, 0.25)))
-"""Of the classes: 60 cases and more in each group that has a goal, of 240."""
+"""Shares of the classes: 60 cases and more in each group that has a goal, of 240."""
 HOW_MANY = (0.5, 0.3, 0.2)
 """Shares of cases with one, two and three laws."""
 FULL_PHYSICS, ANY_SIZE = 4, 4
-"""Every fourth case with one effect or none has all of ``TOGETHER``; in every fourth the law may be ever so near."""
+"""Every fourth case with at most one effect has all of ``TOGETHER``; in every fourth the misfit may be small."""
 
 
 def worlds_of(kinds: Sequence[str]) -> tuple[str, ...]:
-    """Those of some kinds whose base chain has other laws."""
+    """Kinds with other laws of their base chain."""
     return tuple(kind for kind in kinds if kind in OF_KIND)
 
 
@@ -55,7 +55,7 @@ def _pairs(kind: str, named: Sequence[str]) -> tuple[Partners, ...]:
 
 
 def _steps(rng: np.random.Generator, order: Order, ids: Sequence[str], lead: str) -> tuple[str, ...]:
-    """Steps that follow another law, the dealt one first; none that an effect of the case would overrule."""
+    """Steps with another law, the dealt step first; none overruled by an effect of the case."""
     barred = {name for effect in order.effects for name in SPOILT.get(effect, ())}
     free = [name for name in ids if name not in barred]
     lead = lead if lead in free else free[int(rng.integers(len(free)))]
@@ -94,7 +94,7 @@ def _orders(rng: np.random.Generator, family: Family, seed: int, cases: int) -> 
 
 
 def plan_worlds(seed: int, cases: int, kinds: Sequence[str] = tuple(OF_KIND)) -> list[Order]:
-    """The orders of a battery in which every rig follows other laws: half of it gears and discs, if both are dealt."""
+    """Orders of a battery of rigs that follow other laws: half of it gears and discs, if both are dealt."""
     if lawless := [kind for kind in kinds if kind not in OF_KIND]:
         raise InputError("no other law is published of the base model of this kind", where="kinds", value=lawless)
     if cases < fewest(kinds):

@@ -1,4 +1,4 @@
-"""Figures of a battery whose rigs follow other laws: what is missing and which laws, each for itself."""
+"""Figures of a battery of rigs that follow other laws: missing effects and laws separately."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def _share(key: str, text: str, counts: Counts, measure: Callable[[Truth, Answer
 
 
 def _by_law(key: str, text: str, laws: Callable[[Truth], frozenset[str]], goal: Goal) -> Figure:
-    """Laws of a case count one by one."""
+    """Figure that counts the laws of a case separately."""
     return Figure(
         key,
         text,

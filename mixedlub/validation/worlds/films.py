@@ -28,7 +28,7 @@ def groups(c: Contact) -> Groups:
 def dowson_higginson_1966(u: np.ndarray, g: np.ndarray, w: np.ndarray) -> np.ndarray:
     """H_min = 1.6 U^0.7 G^0.6 W^-0.13 (Dowson and Higginson, Elasto-hydrodynamic lubrication, 1966).
 
-    A minimum film, which many take for the film; elastic and piezoviscous contacts. ISO/TR 15144-1 has it too.
+    A minimum film, often used as the film thickness; elastic and piezoviscous contacts. Also in ISO/TR 15144-1.
     """
     return np.asarray(1.6 * u**0.70 * g**0.60 * w**-0.13)
 

@@ -1,4 +1,4 @@
-"""How far a law is off the base model, and which other law could be taken for it, on noise-free readings."""
+"""Misfit of a law to the base model, and its likeness to other laws, on noise-free readings."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from mixedlub.validation.rivals import Target, best
 from mixedlub.validation.worlds.catalogue import Followed, World, following, laws_on
 
 CLEAR = 100.0
-"""Chi-square that recalibration leaves of a law which can be identified."""
+"""Chi-square after recalibration above which a law is identifiable."""
 
 
 @dataclass(frozen=True)
 class Seen:
-    """A rig in the base model, the rows that are read, the calibration and the standard deviation of each row."""
+    """A rig in the base model, its recorded rows, the calibration and the standard deviation of each row."""
 
     rig: Rig
     rows: np.ndarray
@@ -33,16 +33,16 @@ class Seen:
         return round(max(chi_square - float(self.z @ self.z), 0.0), 4)
 
     def alone(self, world: World, one: Followed) -> float:
-        """What the base model misses of a rig that follows one law of a world only, and those that it needs."""
+        """Misfit of the base model to a rig that follows one law of a world and the laws that it needs."""
         needed = [other for other in world if other.law.id in one.law.needs]
         return self.misfit([one, *needed], needed)
 
     def beside(self, world: World, one: Followed) -> float:
-        """What is missed without one law, all the others of the world known."""
+        """Misfit without one law, all the others of the world known."""
         return self.misfit(world, without(world, one))
 
     def exchanged(self, world: World, one: Followed) -> dict[str, float]:
-        """What is missed with a law of another step in the place of one, the others known, by the id of the other."""
+        """Misfit with one law replaced by a law of another step, the others known, by the id of the replacement."""
         followed, others = {other.law.id for other in world}, without(world, one)
         kept = {other.law.id for other in others}
         found: dict[str, float] = {}
@@ -55,12 +55,12 @@ class Seen:
 
 
 def without(world: World, one: Followed) -> list[Followed]:
-    """A world without one law and those that need it."""
+    """World without one law and the laws that need it."""
     return [other for other in world if other is not one and one.law.id not in other.law.needs]
 
 
 def told(seen: Seen, world: World) -> dict[str, Any]:
-    """What the truth of a case says of its laws: names, knobs, sources, misfits, and how near other laws come."""
+    """Entries of the truth about the laws: names, knobs, sources, misfits, and misfits of other laws."""
     misfits = {one.law.id: (seen.alone(world, one), seen.beside(world, one)) for one in world}
     return {
         "laws": {one.law.id: one.law.name for one in world},

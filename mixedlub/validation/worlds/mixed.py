@@ -1,4 +1,4 @@
-"""How film and asperities share the load, and how friction is weighted between them."""
+"""Load sharing between film and asperities, and weighting of their friction."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from mixedlub.validation.worlds.asperities import (
 )
 
 HALVINGS, SEPARATED = 16, 9.0
-"""Bisections of a balance, and rms heights above which asperities carry nothing."""
+"""Bisections of a balance, and rms heights above which asperities carry no load."""
 Lighter = Callable[[Contact], Contact]
-"""The contact of which the film has to carry half the load."""
+"""Contact with half the load carried by the film."""
 Weight = Callable[[Contact, np.ndarray], np.ndarray]
 """Share of boundary friction, from a contact at its film and the share of the load on its asperities."""
 
@@ -35,32 +35,28 @@ def half_load(c: Contact) -> Contact:
 def half_load_and_modulus(c: Contact) -> Contact:
     """Half the load on bodies of half the modulus, so that the film keeps its shape: Gelinck and Schipper 2000.
 
-    With gamma = 1/(1 - L) load and modulus go by 1/gamma in the film law; Tribol. Int. 33 (2000) 175. By laws with like
-    powers of speed and material (Grubin's, one limit of Moes') no film grows then, and there is no balance.
+    With gamma = 1/(1 - L) load and modulus scale by 1/gamma in the film law; Tribol. Int. 33 (2000) 175. Laws with
+    equal powers of speed and material (Grubin's, one limit of Moes') give no film growth, hence no balance.
     """
     solid = replace(c.rig.solid, modulus=(0.5 * c.rig.solid.modulus[0], 0.5 * c.rig.solid.modulus[1]))
     return replace(half_load(c), rig=replace(c.rig, solid=solid))
 
 
 def growth(c: Contact, lighter: Lighter) -> np.ndarray:
-    """Power with which the film grows as its load falls, from the film law of the rig: 0.1 or 0.13 of the base law's.
-
-    Exact for power laws of the load.
-    """
+    """Exponent of film growth at falling load, exact for power laws: 0.1 or 0.13 for the base law."""
     law = c.rig.laws.get("film", hamrock_dowson if c.rig.is_point else dowson_toyoda)
     return np.asarray(np.log2(law(lighter(c)).film / law(c).film))
 
 
 def mean_pressure(c: Contact) -> np.ndarray:
-    """Mean pressure of the whole contact (Pa): 2/3 of the largest of a point, pi/4 of a line."""
+    """Mean pressure of the whole contact (Pa): 2/3 of the maximum in a point contact, pi/4 in a line contact."""
     return c.pressure * (2 / 3 if c.rig.is_point else np.pi / 4)
 
 
 def balanced(c: Contact, asperities: Asperities, lighter: Lighter) -> tuple[np.ndarray, np.ndarray]:
     """Film (m) and the share L of the load that asperities carry: p_a(h) = L p with h = h_0 (1 - L)^-s, by bisection.
 
-    h_0 is the film that carries all, p the mean Hertz pressure. The asperities' pressure falls with the film and the
-    share rises, so that there is one solution.
+    h_0: film under full load; p: mean Hertz pressure. Unique, since asperity pressure falls and L rises with the film.
     """
     power, load = growth(c, lighter), mean_pressure(c)
 
@@ -81,9 +77,9 @@ def balanced(c: Contact, asperities: Asperities, lighter: Lighter) -> tuple[np.n
 
 
 def meet(c: Contact) -> Contact:
-    """Film and share of boundary friction by the laws of asperities, of balance and of weighting.
+    """Contact with film and share of boundary friction by the laws of asperities, balance and weighting.
 
-    Unless they share it, film and asperities both carry the whole load, as in the base model.
+    Without a balance, film and asperities both carry the whole load, as in the base model.
     """
     laws = c.rig.laws
     asperities = laws.get("asperities", greenwood_williamson)(c)
@@ -96,7 +92,7 @@ def meet(c: Contact) -> Contact:
 
 
 def by_load(c: Contact, carried: np.ndarray) -> np.ndarray:
-    """The share of the load that asperities carry (Gelinck and Schipper 2000): Coulomb friction on it."""
+    """Share of the load on the asperities (Gelinck and Schipper 2000), with Coulomb friction."""
     return carried
 
 
@@ -113,10 +109,7 @@ def by_error_function(c: Contact, carried: np.ndarray) -> np.ndarray:
 
 
 def by_doleschel(c: Contact, carried: np.ndarray) -> np.ndarray:
-    """(1 - h/(2 Ra))^2 below h = 2 Ra, none above, Ra the mean of both surfaces (Doleschel 2003).
-
-    Ra is sqrt(2/pi) Rq of normal heights.
-    """
+    """(1 - h/(2 Ra))^2 below h = 2 Ra, none above (Doleschel 2003); mean Ra = sqrt(2/pi) Rq of both surfaces."""
     mean = 0.5 * np.sqrt(2 / np.pi) * np.sqrt(c.rig.shares[:, :, 0]).sum(axis=1)[:, None] * c.roughness
     return np.asarray(np.maximum(1 - 0.5 * c.film / mean, 0.0) ** 2)
 

@@ -21,7 +21,7 @@ MOST = 60.0
 
 
 def barus(alpha: np.ndarray, pressure: np.ndarray, celsius: np.ndarray, level: np.ndarray) -> np.ndarray:
-    """alpha p (Barus, Am. J. Sci. 45 (1893) 87): far too thick above some 0.5 GPa, and used there all the same."""
+    """alpha p (Barus, Am. J. Sci. 45 (1893) 87): far too thick above some 0.5 GPa, yet in common use."""
     return np.asarray(alpha * pressure)
 
 
@@ -46,8 +46,8 @@ def free_volume(
 ) -> np.ndarray:
     """Doolittle's B v_0/(v - v_0), J. Appl. Phys. 22 (1951) 1471, v by Tait's equation, B by the slope at rest.
 
-    Volume over that at 20 C and rest: (1 + 8e-4 (T - 20)) (1 - ln(1 + 11 p/K)/11), K = 9 GPa exp(-0.0065 T), T in
-    kelvin; ``occupied`` is v_0. No less than a fiftieth of the volume stays free.
+    Volume relative to 20 C at rest: (1 + 8e-4 (T - 20)) (1 - ln(1 + 11 p/K)/11), K = 9 GPa exp(-0.0065 T), T in kelvin;
+    ``occupied`` is v_0. At least a fiftieth of the volume stays free.
     """
     resting = 1 + 8e-4 * (celsius - 20.0)
     bulk = 9e9 * np.exp(-6.5e-3 * (celsius + KELVIN))
@@ -57,7 +57,7 @@ def free_volume(
 
 
 def roelands(alpha: np.ndarray, pressure: np.ndarray, celsius: np.ndarray, level: np.ndarray) -> np.ndarray:
-    """(ln eta_0 + 9.67) [(1 + p/0.196 GPa)^Z - 1] (Roelands 1966), which the base model has for contacts."""
+    """(ln eta_0 + 9.67) [(1 + p/0.196 GPa)^Z - 1] (Roelands 1966), the base model's law for contacts."""
     return np.asarray(level * ((1 + pressure / 1.96e8) ** (alpha * 1.96e8 / level) - 1))
 
 
@@ -69,7 +69,7 @@ def _thick(c: Contact, warmer: np.ndarray | float = 0.0, *, rise: Rise) -> np.nd
 
 @dataclass(frozen=True)
 class OilBy(Oil):
-    """An oil between whose two known viscosities another law than ASTM D341 holds."""
+    """An oil with another law than ASTM D341 between its two known viscosities."""
 
     law: cooling.Law = cooling.andrade
 
@@ -85,7 +85,7 @@ def _cooled(c: Contact, law: cooling.Law) -> Contact:
 
 
 def _entered(state: Contact | Sample, *, rise: Rise, **values: float) -> Contact | Sample:
-    """A pressure law in place, in a contact or in a viscometer."""
+    """State of a contact or a viscometer with a pressure law in place."""
     rise = partial(rise, **values)
     if isinstance(state, Contact):
         return follow(state, "thick", partial(_thick, rise=rise))
@@ -94,7 +94,7 @@ def _entered(state: Contact | Sample, *, rise: Rise, **values: float) -> Contact
 
 
 def _turned(state: Contact | Sample, *, law: Callable[..., np.ndarray], **values: float) -> Contact | Sample:
-    """A temperature law in place, in a contact or in a viscometer."""
+    """State of a contact or a viscometer with a temperature law in place."""
     turned = partial(law, **values)
     if isinstance(state, Contact):
         return _cooled(state, turned)

@@ -1,9 +1,8 @@
-"""Summits of a Gaussian surface as Bush, Gibson and Thomas press them: each an elliptic paraboloid of its own height.
+"""Summits of a Gaussian surface by Bush, Gibson and Thomas: elliptic paraboloids of individual height.
 
 The density of summits by height, mean curvature and difference of the principal curvatures follows from the moments of
-an isotropic Gaussian surface (Longuet-Higgins, Nayak 1971). Each summit is in Hertz contact with the plane, an ellipse.
-Area over nominal area and pressure over E* sqrt(m2) depend on Nayak's parameter and on the separation over the rms
-height alone; both are tabulated once.
+an isotropic Gaussian surface (Longuet-Higgins, Nayak 1971). Each summit is in elliptic Hertz contact with the plane.
+Area over nominal area and pressure over E* sqrt(m2) depend on Nayak's parameter and h/Rq alone; both are tabulated.
 """
 
 from __future__ import annotations
@@ -15,17 +14,17 @@ import numpy as np
 from mixedlub.validation.worlds.gaussian import excess
 
 SPREADS = np.log(np.geomspace(1.6, 2000.0, 24))
-"""Logarithms of Nayak's parameter at which the tables are computed; 1.5 is its least value."""
+"""Logarithms of Nayak's parameter in the tables; 1.5 is its least value."""
 SEPARATIONS = np.linspace(-1.0, 8.0, 91)
 NODES = 48
 
 
 @cache
 def _ellipses() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Curvature ratios of summits (small over large) and factors on the area and force of a round one of equal product.
+    """Curvature ratios of summits (small over large); factors on area and force of a round summit of equal product.
 
-    Hertz (Johnson, Contact mechanics 1985, section 4.2): with eccentricity e and K, E of e^2, the curvatures are as
-    (K - E) to E/(1 - e^2) - K, the depth is b K p0/E*, and the smaller curvature 2 b (K - E) p0/(E* e^2 a^2).
+    Hertz (Johnson, Contact mechanics 1985, section 4.2): with eccentricity e and K, E of e^2, the curvatures are as (K
+    - E) to E/(1 - e^2) - K, the depth is b K p0/E*, and the smaller curvature 2 b (K - E) p0/(E* e^2 a^2).
     """
     from scipy.special import ellipe, ellipk
 
@@ -40,9 +39,9 @@ def _ellipses() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def summits() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Mean curvatures and half differences over sqrt(m4) of summits, and how many there are a unit of m4/(2 pi m2).
+    """Mean curvatures and half differences over sqrt(m4) of summits, and their number a unit of m4/(2 pi m2).
 
-    A point is a summit where both curvatures are positive; it counts with their product.
+    A point is a summit if both curvatures are positive; its weight is their product.
     """
     x, weight = np.polynomial.legendre.leggauss(NODES)
     mean = 3.5 * (1 + x)[:, None]
@@ -76,7 +75,7 @@ def tables() -> tuple[np.ndarray, np.ndarray]:
 
 
 def read(table: np.ndarray, nayak: np.ndarray, separation: np.ndarray) -> np.ndarray:
-    """A table at values of Nayak's parameter and of the separation over the rms height, linear between its entries."""
+    """Table at values of Nayak's parameter and of separation over rms height, by linear interpolation."""
     row = (np.log(nayak) - SPREADS[0]) / (SPREADS[1] - SPREADS[0])
     column = (separation - SEPARATIONS[0]) / (SEPARATIONS[1] - SEPARATIONS[0])
     row, column = np.clip(row, 0.0, len(SPREADS) - 1.001), np.clip(column, 0.0, len(SEPARATIONS) - 1.001)

@@ -1,4 +1,4 @@
-"""How the pairs of teeth of spur gears share the load, by other rules than the table of the case."""
+"""Load sharing between the tooth pairs of spur gears, by other rules than the table of the case."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ def _alone(place: np.ndarray, ratio: float) -> np.ndarray:
 
 
 def equal(place: np.ndarray, ratio: float) -> np.ndarray:
-    """Half where two pairs carry: rigid teeth."""
+    """Half for each of two pairs in contact: rigid teeth."""
     return np.where(_alone(place, ratio), 1.0, 0.5)
 
 
 def trapezoid(place: np.ndarray, ratio: float) -> np.ndarray:
-    """A third at the ends, rising to two thirds where one pair takes all (ISO/TR 15144-1, after Niemann).
+    """A third at the ends, rising to two thirds up to single contact (ISO/TR 15144-1, after Niemann).
 
     >>> [round(float(trapezoid(np.array(x), 1.5)), 3) for x in (0.0, 0.25, 0.75, 1.25)]
     [0.333, 0.5, 1.0, 0.5]
@@ -36,8 +36,8 @@ def trapezoid(place: np.ndarray, ratio: float) -> np.ndarray:
 def by_iso_6336(place: np.ndarray, ratio: float) -> np.ndarray:
     """Shares as the stiffnesses of both pairs, from ISO 6336-1's c' and mesh stiffness c' (0.75 ratio + 0.25).
 
-    A pair is as stiff as c' in the middle of its path and falls off as a parabola, whose mean gives the mesh
-    stiffness; the standard prints no shape. Independent of the torque: no Hertz flattening, no errors of the teeth.
+    The stiffness of a pair is c' in the middle of its path and falls as a parabola; the mean gives the mesh stiffness.
+    The standard prints no shape. Independent of the torque: no Hertz flattening, no errors of the teeth.
     """
 
     def stiffness(x: np.ndarray) -> np.ndarray:

@@ -1,6 +1,6 @@
 """Shear of the film by other laws than one Ree-Eyring stress at the largest pressure.
 
-Each gives the stress (Pa) whose ratio to the largest Hertz pressure is the friction coefficient of the film.
+Each law gives a stress (Pa); its ratio to the largest Hertz pressure is the friction coefficient of the film.
 """
 
 from __future__ import annotations
@@ -25,16 +25,16 @@ def at(c: Contact, share: float, warmer: Warmer) -> np.ndarray:
 
 
 def at_mean_pressure(c: Contact, warmer: Warmer = 0.0) -> np.ndarray:
-    """tau(p_m)/p_m with the mean Hertz pressure, pi/4 of the largest of a line and 2/3 of a point."""
+    """tau(p_m)/p_m with the mean Hertz pressure: pi/4 of the maximum in a line contact, 2/3 in a point contact."""
     mean = 2 / 3 if c.rig.is_point else np.pi / 4
     return np.asarray(at(c, mean, warmer) / mean)
 
 
 def over_contact(c: Contact, warmer: Warmer = 0.0) -> np.ndarray:
-    """The stress integrated over the Hertz ellipse, over the load: isothermal traction of a film of even thickness.
+    """Stress integrated over the Hertz ellipse, over the load: isothermal traction of a film of uniform thickness.
 
-    With p = p_0 cos(a) at the place sin(a) of the half width, of a line 4/pi times the integral of tau(p) cos(a) from
-    the middle to the edge, of a point 3 times that of tau(p) sin(a) cos(a).
+    With p = p_0 cos(a) at the place sin(a) of the half width: for a line 4/pi times the integral of tau(p) cos(a) from
+    the middle to the edge, for a point 3 times the integral of tau(p) sin(a) cos(a).
     """
     total = np.zeros_like(c.film)
     for node, weight in zip(NODES, WEIGHTS):
@@ -47,8 +47,7 @@ def over_contact(c: Contact, warmer: Warmer = 0.0) -> np.ndarray:
 def of_limiting_stress(c: Contact, warmer: Warmer = 0.0) -> np.ndarray:
     """Eyring stress 2 Lambda/alpha(T, p), alpha ln(eta/eta_0)/p (Bair and Winer; Arana, Larranaga and Ulacia 2018).
 
-    At rest and at the first temperature of the data sheet it is that of the data sheet, which settles Lambda; where
-    alpha falls with pressure and temperature, the stress grows.
+    Lambda from the data-sheet stress at rest and its first temperature; the stress grows as alpha falls with p and T.
     """
     oil, thickened = c.rig.oil, thick(c, warmer)
     rest = c.viscosity * oil.viscosity_at(c.temperature + warmer) / oil.viscosity_at(c.temperature)
@@ -71,15 +70,15 @@ def li_kahraman(pressure: np.ndarray) -> np.ndarray:
 
 
 def grown_as_li_kahraman(c: Contact, warmer: Warmer = 0.0) -> np.ndarray:
-    """The stress of the data sheet at 0.5 GPa, growing with pressure as that of Li and Kahraman's 75W90."""
+    """Data-sheet stress at 0.5 GPa, growing with pressure as in Li and Kahraman's 75W90."""
     grown = c.eyring_stress * li_kahraman(c.pressure) / li_kahraman(np.array(0.5e9))
     return sheared(replace(c, eyring_stress=grown), thick(c, warmer))
 
 
 def carreau(c: Contact, warmer: Warmer = 0.0, index: float = 0.4) -> np.ndarray:
-    """eta g [1 + (eta g/G)^2]^((n - 1)/2) at the rate g (Carreau; Bair and Winer have the Newtonian limit G).
+    """eta g [1 + (eta g/G)^2]^((n - 1)/2) at the rate g (Carreau; Newtonian limit G in Bair and Winer).
 
-    G is the Eyring stress of the data sheet, ``index`` the n of the oil, 0.3 to 0.5 of most.
+    G is the Eyring stress of the data sheet, ``index`` the n of the oil, 0.3 to 0.5 for most oils.
     """
     newton = thick(c, warmer) * c.sliding / c.film
     return np.asarray(newton * (1 + (newton / c.eyring_stress) ** 2) ** (0.5 * (index - 1)))
