@@ -24,8 +24,7 @@ FEWEST = 3
 """Judgement. Fewest distinct values of a column and readings at equal conditions that show a dependence."""
 FOLLOWS, RELATED = 0.9, 0.7
 """Judgement. Rank correlation with the reading at which it depends on the column, at equal conditions; at which a note
-reports the column, over all rows.
-"""
+reports the column, over all rows."""
 MOST_SAID = 3
 """Judgement. Most columns reported as changing with the reading."""
 

@@ -23,8 +23,7 @@ from mixedlub.schema.units import fits, is_unit, split, words_of
 
 LEAST_LIKENESS = 0.4
 """Judgement. Least likeness of an offered header: half of its words, a fitting unit, or names in the cells. Tests of
-likely headers hold it and the weights below in place.
-"""
+likely headers hold it and the weights below in place."""
 UNIT_FITS = 0.45
 NO_UNIT_FITS = 0.01
 """Likeness for a missing unit: such a number is probably a ratio."""

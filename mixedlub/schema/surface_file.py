@@ -11,8 +11,8 @@ from mixedlub.schema.section import Number, Section, key
 Files = Annotated[tuple[str, ...], Field(min_length=1)]
 
 STEEL = {"conductivity": 46.0, "density": 7800.0, "heat_capacity": 470.0}
-"""Judgement. Thermal conductivity (W/(m K)), density (kg/m^3) and specific heat (J/(kg K)) of gear steels, whose
-density handbooks have as 7,750 to 7,850."""
+"""Judgement. Thermal conductivity (W/(m K)), density (kg/m^3) and specific heat (J/(kg K)) of gear steels;
+density in handbooks: 7,750 to 7,850."""
 SURFACE_FILES = ("profile", "traces", "traces_along", "map")
 """Keys of a surface with file names."""
 

@@ -193,8 +193,7 @@ def _read() -> tuple[dict[str, str], dict[str, Changes], dict[str, Changes]]:
 
 ENDINGS, UNITS, SLIPS = _read()
 """By name suffix, longer suffixes first: displayed unit; accepted units (``ratio``: dimensionless); probable units of
-numbers outside their range.
-"""
+numbers outside their range."""
 
 
 def unit_of(name: str) -> str:
