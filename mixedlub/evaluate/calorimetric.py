@@ -119,8 +119,7 @@ class Heat:
 def oil_heat(density: np.ndarray, specific_heat: float, flow: np.ndarray, rise: np.ndarray) -> np.ndarray:
     r"""Heat taken up by the oil (W), :math:`\dot Q = c_p\,\rho\,\dot V\,(\theta_{out} - \theta_{in})`.
 
-    Density (kg/m3) at the temperature of the flow meter, specific heat in J/(kg K), flow in m3/s, temperature rise in
-    K.
+    Density (kg/m3) at the temperature of the flow meter, specific heat in J/(kg K), flow in m3/s, rise in K.
     Source: "Measurement and Modelling of Friction for Cylindrical Gears with Pitch Line Velocities up to 100 m/s",
     equation 8.
 
