@@ -53,7 +53,7 @@ def over_period(harmonics: np.ndarray, count: int) -> np.ndarray:
 def division(response: Response, fundamental: float, low_pass: float, regularisation: float, least: float) -> Division:
     r"""Division of harmonics up to ``low_pass`` by the response, :math:`F_j = X_j H_j^*/(|H_j|^2 + \epsilon^2)`.
 
-    epsilon: ``regularisation`` times the static response. A response below ``least`` of the static response is an error.
+    epsilon: ``regularisation`` times the static response. A response below ``least`` of the static one is an error.
 
     Source: Vaishya and Houser 1999, AGMA 99FTMS1, section 8, for the division and the filter.
 
