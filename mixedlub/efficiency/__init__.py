@@ -6,6 +6,6 @@ from mixedlub.efficiency.gearbox import Gearbox, Losses
 from mixedlub.efficiency.prepare import read_gearbox
 
 EXAMPLE = files("mixedlub.efficiency").joinpath("example.toml")
-"""A gearbox of two stages, as `mixedlub new efficiency` writes it."""
+"""Template of a gearbox with two stages, written by `mixedlub new efficiency`."""
 
 __all__ = ["EXAMPLE", "Gearbox", "Losses", "read_gearbox"]

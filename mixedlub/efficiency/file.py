@@ -1,4 +1,4 @@
-"""Format of a file of `mixedlub efficiency`: one class a table."""
+"""Format of a file of `mixedlub efficiency`: one class per table."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Side = Literal["pinion", "gear"]
 SIDES = {"pinion": "first entry of [gears]", "gear": "second entry"}
 Positive = Annotated[Number, Field(gt=0.0)]
 MOST_CONDITIONS = 250_000
-"""Most torques times speeds of a map."""
+"""Largest number of torques times speeds of a map."""
 NotNegative = Annotated[Number, Field(ge=0.0)]
 
 
@@ -27,7 +27,7 @@ def _law(kind: Kind, example: str) -> Any:
 
 
 class Part(Section):
-    """What every part has."""
+    """Keys of every part."""
 
     law: str = key("law", example="palmgren")
     coefficients: dict[str, Number] = key("NAME = VALUE: coefficients of the law, by the names of its page", {})
@@ -36,7 +36,7 @@ class Part(Section):
 
 
 class Bearing(Part):
-    """A rolling bearing, and its position on the shaft or the shares of the forces that it carries."""
+    """Rolling bearing, with its position on the shaft or its shares of the forces."""
 
     law: str = _law("bearing", "skf_deep_groove")
     shaft: Side = key("the shaft that it carries", example="pinion", values=SIDES)
@@ -113,7 +113,7 @@ class Other(Part):
 
 
 class SharedShaft(Section):
-    """The second wheel on the shaft that two stages share."""
+    """Second wheel on a shaft common to two stages."""
 
     distance_mm: Number = key(
         "from the middle of the driven wheel of the stage before to the middle of the driving wheel of this one",
@@ -131,7 +131,7 @@ class Flanks(Section):
 
 
 class Stage(Section):
-    """A gear pair with its oil, its surfaces and its other parts."""
+    """Gear pair with oil, surfaces and other parts."""
 
     driving: Side = key("the side that drives", "pinion", values=SIDES)
     oil_temperature_C: Number = key("temperature of its oil", example=80.0)
@@ -179,7 +179,7 @@ class Conditions(Section):
 
 
 class Duty(Section):
-    """Time at operating points: entries of the three lists go together."""
+    """Time at operating points; entries of the three lists correspond."""
 
     torque_Nm: tuple[Number, ...] = key("torques at the input", example=[150, 60, 0], min_length=1)
     speed_rpm: tuple[Number, ...] = key("speeds of the input", example=[1000, 3000, 3500], min_length=1)
@@ -195,7 +195,7 @@ class Duty(Section):
 
 
 class Cycle(Section):
-    """The condition of the mesh cycle and of the breakdown."""
+    """Condition of the mesh cycle and of the breakdown."""
 
     torque_Nm: Positive | None = key("torque at the input; left out: the largest of the map", None, example=200.0)
     speed_rpm: Positive | None = key("speed of the input; left out: the largest of the map", None, example=4000.0)
@@ -203,7 +203,7 @@ class Cycle(Section):
 
 
 class EfficiencyFile(Section):
-    """Gear stages in series, the map of conditions, and a duty cycle."""
+    """Gear stages in series, map of conditions, and duty cycle."""
 
     schema_: Literal["mixedlub-efficiency/1"] = key(
         "format of the file", example="mixedlub-efficiency/1", alias="schema"
@@ -224,7 +224,7 @@ class EfficiencyFile(Section):
 
 
 def check_conditions(torque: tuple[float, ...], speed: tuple[float, ...]) -> None:
-    """Refuse torques below zero and shafts at rest."""
+    """Raise an error for negative torques and shafts at rest."""
     if min(torque) < 0.0:
         rule = f"torque_Nm: {min(torque):g} is below 0; name the side that drives with `driving` of the stage"
         raise ValueError(rule)

@@ -1,4 +1,4 @@
-"""Stages in series: what each loses at its input, and what is left for the next."""
+"""Stages in series: losses at the input of each stage, and the power left for the next stage."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ MESH = ("sliding", "rolling")
 ORIGINS = (*MESH, *KINDS)
 """Origins of loss in the order of tables and figures."""
 EXCEEDED = "losses_exceed_input"
-"""Validity of a condition whose losses are above its input power: the gearbox does not turn by itself."""
+"""Validity of a condition with losses above its input power: the gearbox needs an external drive."""
 Origin = tuple[str, str, str]
-"""Stage, origin, and name of the part; empty for the mesh."""
+"""Stage, origin, and name of the part (empty for the mesh)."""
 
 
 @dataclass(frozen=True, eq=False)
 class StageModel:
-    """A gear pair with its oil and its parts, in SI."""
+    """Gear pair with oil and parts, in SI."""
 
     name: str
     driving: str
@@ -39,21 +39,21 @@ class StageModel:
 
     @property
     def pair(self) -> GearPair:
-        """Its gears."""
+        """Gear pair of the stage."""
         return self.study.pair
 
     @property
     def ratio(self) -> float:
-        """Speed of its driving over that of its driven side."""
+        """Speed of the driving over speed of the driven side."""
         return self.pair.gear_ratio if self.driving == "pinion" else 1.0 / self.pair.gear_ratio
 
     @property
     def driven(self) -> str:
-        """The side that is driven."""
+        """Driven side."""
         return "gear" if self.driving == "pinion" else "pinion"
 
     def of_pinion(self, torque: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Torque and speed of the pinion from those of the driving side."""
+        """Torque and speed of the pinion from torque and speed of the driving side."""
         if self.driving == "pinion":
             return torque, speed
         return torque / self.pair.gear_ratio, speed * self.pair.gear_ratio
@@ -71,7 +71,7 @@ class StageModel:
         return found, [*reached, *of_parts]
 
     def _check_finite(self, place: str, loss: np.ndarray, torque: np.ndarray, speed: np.ndarray) -> None:
-        """Refuse numbers at which a law leaves its domain."""
+        """Raise an error for losses that are not finite, outside the domain of a law."""
         wrong = np.flatnonzero(~np.isfinite(loss))
         if wrong.size:
             at = f"{torque[wrong[0]]:.4g} N m and {speed[wrong[0]] * 30.0 / np.pi:.4g} rpm of its driving side"
@@ -83,8 +83,7 @@ class StageModel:
 class Losses:
     """Losses of a gearbox at N conditions of its input, in SI.
 
-    ``torque`` and ``speed`` are those of the input, ``by_origin`` the losses (W), ``reached`` the limits of each stage
-    with their values.
+    ``torque``, ``speed``: at the input; ``by_origin``: losses (W); ``reached``: limits of each stage with values.
     """
 
     gearbox: Gearbox
@@ -95,7 +94,7 @@ class Losses:
 
     @cached_property
     def validity(self) -> tuple[str, ...]:
-        """Words a condition; of several stages each code has the name of its own before it."""
+        """Validity codes of each condition; with several stages, each code has the prefix of its stage."""
         found = {
             f"{name}:{code}" if len(self.reached) > 1 else code: grades
             for name, own in self.reached.items()
@@ -110,30 +109,30 @@ class Losses:
 
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
-        """Conditions outside the range of the model, stage by stage, the gravest first."""
+        """Findings on conditions outside the range of the model, by descending severity."""
         places = ((f"stages.{name}", own) for name, own in self.reached.items())
         each = (findings(own, self.torque.shape, "conditions", place) for place, own in places)
         return tuple(gravest_first(one for own in each for one in own))
 
     @cached_property
     def input_power(self) -> np.ndarray:
-        """Torque times speed of the input (W)."""
+        """Input torque times input speed (W)."""
         return self.torque * self.speed
 
     def total(self, *, stage: str | None = None, origins: tuple[str, ...] = ORIGINS) -> np.ndarray:
-        """Sum of the losses (W) of some origins, of one stage or of all."""
+        """Sum of losses (W) of given origins, of one or all stages."""
         chosen = [v for (name, origin, _), v in self.by_origin.items() if origin in origins and stage in (None, name)]
         return np.sum(chosen, axis=0) if chosen else np.zeros_like(self.torque)
 
     @cached_property
     def output_power(self) -> np.ndarray:
-        """What is left at the output (W); below 0 it must be brought in there."""
+        """Output power (W); below 0 the output must be driven."""
         return self.input_power - self.total()
 
     def efficiency(self, origins: tuple[str, ...] = ORIGINS) -> np.ndarray:
-        """Share of the input power that losses of some origins leave; NaN without torque or without output.
+        """Share of the input power left by losses of given origins; NaN without torque or output.
 
-        Of the origins `MESH` it is the tooth efficiency, of all that of the gearbox.
+        The origins `MESH` give the tooth efficiency, all origins the gearbox efficiency.
         """
         drives = (self.input_power > 0.0) & (self.output_power > 0.0)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -149,13 +148,13 @@ class Gearbox:
 
     @property
     def ratio(self) -> float:
-        """Input over output speed."""
+        """Input speed over output speed."""
         return float(np.prod([stage.ratio for stage in self.stages]))
 
     def losses(self, torque: np.ndarray, speed: np.ndarray) -> Losses:
-        """Losses at torques (N m) and speeds (rad/s) of the input, one entry a condition.
+        """Losses at torques (N m) and speeds (rad/s) of the input, by condition.
 
-        A stage takes in what the one before it leaves; where nothing is left, it turns without torque.
+        The input of a stage is the output of the stage before; without power left, it turns without torque.
         """
         power, turning = torque * speed, speed
         found: dict[Origin, np.ndarray] = {}
@@ -168,13 +167,13 @@ class Gearbox:
         return Losses(self, torque, speed, found, reached)
 
     def map(self) -> Losses:
-        """Losses at every torque and speed of the file, speeds fastest."""
+        """Losses at every torque and speed of the file; the speed varies fastest."""
         levels = self.file.conditions
         torque, speed = np.meshgrid(levels.torque_Nm, np.array(levels.speed_rpm) * np.pi / 30.0, indexing="ij")
         return self.losses(torque.ravel(), speed.ravel())
 
     def at_cycle(self) -> Losses:
-        """Losses at the condition of the mesh cycle; a torque above 0."""
+        """Losses at the condition of the mesh cycle, with a torque above 0."""
         cycle, levels = self.file.cycle, self.file.conditions
         torque = max(levels.torque_Nm) if cycle.torque_Nm is None else cycle.torque_Nm
         speed = max(levels.speed_rpm) if cycle.speed_rpm is None else cycle.speed_rpm

@@ -1,4 +1,4 @@
-"""Loss and tooth efficiency of a stage as its mesh turns by one base pitch."""
+"""Loss and tooth efficiency of a stage over one base pitch of its mesh."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from mixedlub.gear import GearPair, LdpSharing, Mesh, at_roll_angle
 from mixedlub.study.plan import HEAT, mesh_inputs
 
 FINE = 128
-"""Slices of oblique lines that no contact problem makes costly: each is on the path as a whole or not at all."""
+"""Slices of oblique lines without contact problems: cheap, each on the path entirely or not at all."""
 
 
 @dataclass(frozen=True, eq=False)
 class ToothPair:
-    """One tooth pair over the roll angle (rad) of the pinion tooth at the front of the face: forces in N."""
+    """Forces (N) of a tooth pair over the roll angle (rad) of the pinion tooth at the front of the face."""
 
     roll_angle: np.ndarray
     normal_force: np.ndarray
@@ -30,9 +30,9 @@ class ToothPair:
 class MeshCycle:
     """Loss of a stage over one base pitch, in SI.
 
-    ``phase`` (in base pitches), ``sliding`` and ``rolling`` (W), ``sliding_power`` (load times sliding speed, W) and
-    ``friction_force`` (N) have one entry a position; ``pair`` is one tooth pair over its path. Friction forces are
-    those on the pinion, of all pairs in contact, positive where recess outweighs approach.
+    By position: ``phase`` (base pitches), ``sliding`` and ``rolling`` (W), ``sliding_power`` (load times sliding speed,
+    W), ``friction_force`` (N) on the pinion, of all pairs in contact, positive if recess outweighs approach. ``pair``:
+    one tooth pair over its path.
     """
 
     stage: StageModel
@@ -47,12 +47,12 @@ class MeshCycle:
 
     @property
     def input_power(self) -> float:
-        """Power that its driving side takes in (W)."""
+        """Input power at the driving side (W)."""
         return self.torque * self.speed
 
     @property
     def efficiency(self) -> np.ndarray:
-        """Tooth efficiency at each position; its mean is that of the cycle."""
+        """Tooth efficiency at each position; its mean is the efficiency of the cycle."""
         return 1.0 - (self.sliding + self.rolling) / self.input_power
 
     @property
@@ -62,7 +62,7 @@ class MeshCycle:
 
     @property
     def roll_angle(self) -> np.ndarray:
-        """Roll angle of the pinion (rad), from where a tooth pair comes into contact at the front of the face."""
+        """Roll angle of the pinion (rad), from the start of contact of a tooth pair at the front of the face."""
         pair = self.stage.pair
         return (pair.path_start + self.phase * pair.base_pitch) / pair.base_radius[0]
 
@@ -100,7 +100,7 @@ def mesh_cycle(stage: StageModel, torque: float, speed: float, positions: int) -
 
 
 def _tooth_pair(pair: GearPair, place: np.ndarray, lag: np.ndarray, forces: np.ndarray) -> ToothPair:
-    """Friction and normal force of one pair: sums over slices that come later by ``lag`` (m) of the path."""
+    """Friction and normal force of one pair: sums over slices delayed by ``lag`` (m) along the path."""
     step = place[1] - place[0]
     places, later = np.arange(place.size), lag / step
     front = np.arange(-math.ceil(later[-1]), place.size)
@@ -115,7 +115,7 @@ def _tooth_pair(pair: GearPair, place: np.ndarray, lag: np.ndarray, forces: np.n
 
 
 def _slices(stage: StageModel) -> int:
-    """Slices across the face: those of the study, more of oblique lines where they cost little."""
+    """Slices across the face: as in the study, or more for oblique lines at low cost."""
     study = stage.study
     if study.plan.spur or study.file.options.face_slices or isinstance(study.rig.sharing, LdpSharing):
         return study.mesh.slices
@@ -123,7 +123,7 @@ def _slices(stage: StageModel) -> int:
 
 
 def _at_points(stage: StageModel, torque: float, speed: float, points: Mesh) -> np.ndarray:
-    """Of one tooth pair at each slice of contact points (5, M).
+    """Losses and forces of one tooth pair at each slice of contact points (5, M).
 
     Sliding loss, rolling loss and sliding power (W), friction force on the pinion and normal force (N).
     """
@@ -149,7 +149,7 @@ def _at_points(stage: StageModel, torque: float, speed: float, points: Mesh) -> 
 
 
 def mesh_cycles(gearbox: Gearbox, at: Losses) -> list[MeshCycle]:
-    """The cycles of all stages at one condition of the input; each takes in what the one before it leaves."""
+    """Cycles of all stages at one input condition; the input of a stage is the output of the stage before."""
     power, speed = float(at.input_power[0]), float(at.speed[0])
     found = []
     for stage in gearbox.stages:

@@ -1,4 +1,4 @@
-"""Losses of one mesh at many torques and speeds, with the chain and the checks of a study."""
+"""Losses of a mesh at many torques and speeds, with chain and checks of a study."""
 
 from __future__ import annotations
 
@@ -19,22 +19,22 @@ from mixedlub.study.plan import HEAT, Plan, mesh_inputs
 from mixedlub.study.validity import reached
 
 MOST_SOLVED = 40
-"""Torques for which contact problems are solved; between them the share is linear in the logarithm of torque."""
+"""Torques with solved contact problems; in between, the share is linear in the logarithm of torque."""
 LEAST_TORQUE = 1e-3
-"""Torque (N m, or over the largest) at which contact without torque is computed: rolling does not depend on it."""
+"""Torque (N m, or over the largest) for contact without torque; rolling does not depend on it."""
 MOST_POINTS = 2_000_000
-"""Contact points whose inputs are held at a time."""
+"""Contact points with inputs held in memory at a time."""
 
 OF_ASPERITIES = ("asperities_overloaded", "area_ratio_limited", "bandwidth_limited")
-"""Flags of asperities, which a law of friction without them has no need of."""
+"""Flags of asperities, irrelevant to a friction law without asperities."""
 LOCAL = ("friction", "rolling_force")
-"""What the loss of a contact point follows from."""
+"""Quantities that determine the loss of a contact point."""
 
 Shares = Callable[[np.ndarray], np.ndarray]
 
 
 def load_shares(study: Study, torque: np.ndarray) -> Shares:
-    """How the load divides at any of these torques (N m, of the pinion): from N torques to the shares (N, M).
+    """Load shares at any of these pinion torques (N m), as a function from N torques to shares (N, M).
 
     Contact problems of elastic teeth are solved here, once.
     """
@@ -59,8 +59,8 @@ def load_shares(study: Study, torque: np.ndarray) -> Shares:
 def mesh_losses(study: Study, torque: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, np.ndarray, Reached]:
     """Sliding and rolling loss (W) of a mesh, and its limits with the values of each condition.
 
-    ``torque`` (N m) and ``speed`` (rad/s) of the pinion have one entry a condition. Without torque nothing slides under
-    load, rolling is that of a vanishing load, and nothing of the contact is judged.
+    ``torque`` (N m) and ``speed`` (rad/s) of the pinion by condition. Without torque, sliding loss is zero, rolling
+    loss is at vanishing load, and limits of the contact are not judged.
     """
     pressed = np.maximum(torque, LEAST_TORQUE * max(1.0, float(torque.max())))
     shares = load_shares(study, pressed)
@@ -80,7 +80,7 @@ def mesh_losses(study: Study, torque: np.ndarray, speed: np.ndarray) -> tuple[np
 def _computed(
     study: Study, shares: Shares, torque: np.ndarray, speed: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, Reached]:
-    """The same of loaded conditions, all at once."""
+    """Losses and limits as in `mesh_losses`, for loaded conditions, all at once."""
     plan = replace(study.plan, inputs=conditioned(study, shares, torque, speed), shape=(1, 1, torque.size, 1))
     values = {name: np.empty(plan.shape) for name in batch.names(plan)}
     # As many blocks as keep every processor busy to the end.
@@ -98,7 +98,7 @@ def _computed(
 
 
 def conditioned(study: Study, shares: Shares, torque: np.ndarray, speed: np.ndarray) -> dict[str, Any]:
-    """Inputs of the mesh at torques (N m) and speeds (rad/s) of the pinion, along the third axis, with its own heat."""
+    """Mesh inputs at pinion torques (N m) and speeds (rad/s) along the third axis, frictional heat included."""
     plan, share = study.plan, shares(torque)[None, None, :, None, :]
     own = mesh_inputs(study.mesh, share, torque.reshape(1, 1, -1, 1, 1), speed.reshape(1, 1, -1, 1, 1))
     inputs = {**plan.inputs, **own}
@@ -109,7 +109,7 @@ def conditioned(study: Study, shares: Shares, torque: np.ndarray, speed: np.ndar
 
 
 def _idle(plan: Plan) -> set[str]:
-    """Codes of what the loss does not depend on: a law of friction need not read film and asperities."""
+    """Codes of quantities without effect on the loss: a friction law need not depend on film and asperities."""
     model = Model(plan.chain(plan.options), tuple(plan.inputs), LOCAL, plan.effects)
     made = {name for step in model.steps for name in step.outputs}
     chosen = {slot.choices[getattr(plan.options, slot.option)].law.__name__: slot.quantity for slot in SLOTS}

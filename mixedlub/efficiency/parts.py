@@ -1,4 +1,4 @@
-"""The parts of a stage that lose power outside the mesh: their laws with what each of them reads."""
+"""Parts of a stage with losses outside the mesh: their laws and inputs."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ KINDS: Mapping[str, Kind] = {
     "jets": "jet",
     "others": "other",
 }
-"""Tables of a stage and the kind of their parts."""
+"""Tables of a stage and kinds of their parts."""
 BATH = "bath_acceleration"
-"""Quantity that decides about the law of churning."""
+"""Quantity that decides on the law of churning."""
 OF_ANY_LAW = {"law", "coefficients", "factor", "count", "shaft", "wheel", "series"}
 OF_LOAD = {"position_mm", "axial", "radial_share", "axial_share", "radial_load_N", "axial_load_N"}
-"""Keys from which the loads of a bearing follow."""
+"""Keys that determine the loads of a bearing."""
 NO_LOAD = (0.0, 0.0)
 LEAST_RATING, LARGEST_RATING = 0.3, 200.0
 """Static rating over the square of the mean diameter (N/mm2): thin ball bearings 1, spherical thrust bearings 100."""
@@ -42,7 +42,7 @@ LEAST_RATING, LARGEST_RATING = 0.3, 200.0
 
 @dataclass(frozen=True, eq=False)
 class StagePart:
-    """A part: its table and name, its law with the numbers of the user, and its wheel or shaft (0 pinion, 1 gear)."""
+    """Part with table, name, law, numbers from the user, and wheel or shaft (0 pinion, 1 gear)."""
 
     table: str
     name: str
@@ -53,7 +53,7 @@ class StagePart:
     load: Load = NO_LOAD
 
     def loss(self, pair: GearPair, oil: Mapping[str, float], torque: np.ndarray, speed: np.ndarray) -> np.ndarray:
-        """Its power loss (W) at torques (N m) and speeds (rad/s) of the pinion."""
+        """Power loss (W) at torques (N m) and speeds (rad/s) of the pinion."""
         own = speed if self.side == 0 else speed / pair.gear_ratio
         state = {**_wheel(pair, self.side), **oil, "shaft_speed": own, **self._loads(torque), **self._given()}
         found = np.asarray(self.law.law(*(state[name] for name in self.law.reads), **self.coefficients))
@@ -61,7 +61,7 @@ class StagePart:
         return np.broadcast_to(self.section.factor * self.section.count * power, torque.shape)
 
     def reached(self, pair: GearPair, speed: np.ndarray) -> Reached:
-        """Limits of its law with their values at speeds (rad/s) of the pinion."""
+        """Limits of the law with values at speeds (rad/s) of the pinion."""
         if BATH not in declared(self.law.law):
             return []
         own = speed if self.side == 0 else speed / pair.gear_ratio
@@ -88,9 +88,9 @@ class StagePart:
 
 
 def parts_of(stage: Stage, pair: GearPair, loads: Mapping[str, Load], where: str) -> Iterator[StagePart]:
-    """The parts of a stage, each checked against its law.
+    """Parts of a stage, checked against their laws.
 
-    ``loads`` are of the bearings by name, ``where`` is the place of the stage.
+    ``loads``: by bearing name; ``where``: place of the stage in messages.
     """
     for table in KINDS:
         for name, section in getattr(stage, table).items():
@@ -121,7 +121,7 @@ def _part(table: str, name: str, section: Part, where: str) -> StagePart:
 def bearing_findings(
     part: StagePart, pair: GearPair, oil: Mapping[str, float], where: str, *, idles: bool
 ) -> Iterator[Finding]:
-    """Doubt of a static rating that no bearing of this size has; note of a bearing that turns freely.
+    """Doubt about a static rating untypical of the bearing size; note on a freely turning bearing.
 
     ``idles``: conditions without torque are computed.
     """
@@ -144,7 +144,7 @@ def bearing_findings(
 
 
 def _check_keys(law: PartLaw, section: Part, where: str) -> None:
-    """Refuse keys that the law lacks, and those that it would ignore."""
+    """Raise an error for keys missing for the law or ignored by it."""
     for key in law.keys:
         if getattr(section, key) is None:
             raise InputError(f"{law.name} needs {key}", where=where)
@@ -156,20 +156,20 @@ def _check_keys(law: PartLaw, section: Part, where: str) -> None:
 
 
 def _check_immersion(section: Churning, radius: float, where: str) -> None:
-    """Refuse a wheel that is deeper in the oil than it is high."""
+    """Raise an error for an immersion above the pitch diameter of the wheel."""
     if section.immersion_mm is not None and section.immersion_mm > 2e3 * radius:
         rule = f"is above the pitch diameter of the {section.wheel}, {2e3 * radius:.4g} mm"
         raise InputError(rule, where=f"{where}.immersion_mm", value=section.immersion_mm)
 
 
 def check_name(name: str, where: str) -> None:
-    """Refuse a name that a column of a table cannot have."""
+    """Raise an error for a name unsuitable for a table column."""
     if not name or name != name.strip() or any(mark in name for mark in ',"\n'):
         raise InputError("must be a name of one line without commas or quotes", where=where, value=name)
 
 
 def _wheel(pair: GearPair, side: int) -> dict[str, Any]:
-    """Sizes of a wheel by the quantities of part laws."""
+    """Sizes of a wheel by quantity of the part laws."""
     root = pair.reference_radius[side] + pair.normal_module * (pair.profile_shift[side] - pair.dedendum)
     return {
         "wheel_radius": pair.operating_radius[side],
@@ -183,6 +183,6 @@ def _wheel(pair: GearPair, side: int) -> dict[str, Any]:
 
 
 def oil_state(oil: Lubricant, temperature: float) -> dict[str, float]:
-    """What part laws read of an oil at a temperature (K)."""
+    """Oil inputs of part laws at a temperature (K)."""
     at = np.array(temperature)
     return {"viscosity": float(oil.viscosity(at)), "oil_density": float(oil.density(at))}

@@ -1,4 +1,4 @@
-"""From a file of `mixedlub efficiency` to the stages that compute."""
+"""Preparation of the stages from a file of `mixedlub efficiency`."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from mixedlub.study.schema import Options, Pairings, StudyFile
 from profiles.errors import InputError
 
 UNREAD = ("bands", "conditions_of", "averaging")
-"""Options of a study that a stage has no use for."""
+"""Study options without use in a stage."""
 SHARED = ("boundary_friction", "gears", "lubricant", "options", "effects")
-"""Tables that a stage and a study have in common."""
+"""Tables common to a stage and a study."""
 
 
 def read_gearbox(path: Path, file: EfficiencyFile | None = None) -> tuple[Gearbox, tuple[Finding, ...]]:
-    """The gearbox of a file, checked, with notes for its reader; ``file`` replaces the content of the file."""
+    """Gearbox from a file, checked, and findings for its user; ``file`` replaces the content of the file."""
     file = parse(EfficiencyFile, read_toml(path), str(path)) if file is None else file
     studies: dict[str, Study] = {}
     for name, section in file.stages.items():
@@ -48,7 +48,7 @@ def read_gearbox(path: Path, file: EfficiencyFile | None = None) -> tuple[Gearbo
 
 
 def _study(path: Path, where: str, stage: Stage) -> Study:
-    """The mesh of a stage as a study of one pairing and one condition."""
+    """Mesh of a stage as a study of one pairing and one condition."""
     for option in UNREAD:
         if option in stage.options.model_fields_set and getattr(stage.options, option) != _default(option):
             raise InputError(
@@ -78,7 +78,7 @@ def _default(option: str) -> object:
 
 
 def _check_effects(effects: tuple[Effect, ...], where: str) -> None:
-    """Refuse effects that are losses outside the mesh, which the tables of parts have."""
+    """Raise an error for effects that are losses outside the mesh, given by the tables of parts instead."""
     for name in losing(effects):
         raise InputError(
             "is a loss outside the mesh; give the part itself: bearings, seals, windage, churning, pocketing, jets or "

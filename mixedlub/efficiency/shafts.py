@@ -1,4 +1,4 @@
-"""Forces of the meshes on their shafts, balanced onto the bearings: by positions, or by shares that add up to 1."""
+"""Bearing loads from mesh forces on shafts: by bearing positions, or by shares with the sum 1."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from mixedlub.schema.findings import Finding, finding
 from profiles.errors import InputError
 
 Load = tuple[float, float]
-"""Radial and axial load of a bearing (N) for a pinion torque of 1 N m in the stage that lists it."""
+"""Radial and axial load of a bearing (N) at a pinion torque of 1 N m of its stage."""
 TOLERANCE = 0.005
-"""Deviation from 1 of a sum of shares: thirds are written with three digits."""
+"""Tolerance on a sum of shares from 1, for thirds written with three digits."""
 BALANCED = 1e-9
-"""Net thrust over the largest thrust of a shaft below which thrusts cancel but for rounding."""
+"""Net thrust over the largest thrust of a shaft below which thrusts cancel apart from rounding."""
 SIGNS = {"positive": 1.0, "negative": -1.0}
 
 
 @dataclass(frozen=True)
 class WheelForce:
-    """Force on a wheel in its plane (N) at a position (m), thrust (N), and the vector to the pitch point (m).
+    """Force on a wheel in its plane (N) at a position (m), thrust (N), and vector to the pitch point (m).
 
     Vectors in the transverse plane are complex numbers.
     """
@@ -35,12 +35,12 @@ class WheelForce:
 
 
 def bearing_reactions(wheels: Sequence[WheelForce], first: float, second: float) -> tuple[complex, complex]:
-    r"""Transverse reactions (N) of two bearings at positions (m) on a shaft that carries wheels.
+    r"""Transverse reactions (N) of two bearings at positions (m) on a shaft with wheels.
 
     .. math:: R_2 = -\frac{\sum_i (z_i - z_1)F_i - r_i F_{a,i}}{z_2 - z_1},\quad R_1 = -\sum_i F_i - R_2
 
-    F_i is the force on wheel i in the transverse plane, F_a,i its thrust along z, r_i the vector to its pitch point:
-    the thrust tilts the shaft. Two bearings, rigid in position; the shaft has no weight.
+    F_i: force on wheel i in the transverse plane; F_a,i: thrust along z, which tilts the shaft; r_i: vector to the
+    pitch point. Two bearings, rigid in position; the shaft has no weight.
 
     Source: static balance; R. Budynas, K. Nisbett, Shigley's Mechanical Engineering Design, example with figure 13-39.
 
@@ -56,7 +56,7 @@ def bearing_reactions(wheels: Sequence[WheelForce], first: float, second: float)
 
 @dataclass(frozen=True)
 class Wheel:
-    """A wheel of a stage on its shaft: position (m), and angle (rad) to its mate, in the sense of rotation."""
+    """Wheel of a stage on its shaft: position (m), and angle (rad) to its mate, in the sense of rotation."""
 
     stage: str
     section: Stage
@@ -67,26 +67,26 @@ class Wheel:
 
     @property
     def shaft(self) -> str:
-        """Its shaft by the name of the stage."""
+        """Shaft of the wheel by the name of the stage."""
         return f"stages.{self.stage}.bearings (shaft of the {self.side})"
 
     @property
     def bearings(self) -> dict[str, Bearing]:
-        """The bearings that the stage lists on its shaft, by name."""
+        """Bearings on the shaft in the list of the stage, by name."""
         return {name: one for name, one in self.section.bearings.items() if one.shaft == self.side}
 
     @property
     def torque(self) -> float:
-        """Torque of the shaft over that of the pinion of the stage."""
+        """Torque of the shaft over pinion torque of the stage."""
         return 1.0 if self.side == "pinion" else self.pair.gear_ratio
 
     @property
     def helical(self) -> bool:
-        """Whether its mesh has an axial force."""
+        """Whether the mesh has an axial force."""
         return self.pair.helix_angle != 0.0
 
     def force(self) -> WheelForce:
-        """Force on it for a torque of 1 N m on its shaft, friction of the mesh left out."""
+        """Force on the wheel at a shaft torque of 1 N m, without friction of the mesh."""
         pair, towards = self.pair, cmath.exp(1j * self.angle)
         radius, angle = pair.operating_radius[0 if self.side == "pinion" else 1], pair.working_pressure_angle
         tangential = -1.0 / radius if self.side == self.section.driving else 1.0 / radius
@@ -95,7 +95,7 @@ class Wheel:
         return WheelForce(self.position, across, self._direction() * thrust, radius * towards)
 
     def _direction(self) -> float:
-        """Direction of its thrust along growing positions."""
+        """Sign of the thrust along the shaft positions."""
         if not self.helical:
             return 0.0
         if self.section.pinion_thrust is None:
@@ -111,7 +111,7 @@ Loads = dict[tuple[str, str], Load]
 
 
 def bearing_loads(stages: Mapping[str, Stage], pairs: Mapping[str, GearPair]) -> tuple[Loads, list[Finding]]:
-    """Loads of all bearings by stage and name, and the shafts whose bearings are left out."""
+    """Loads of all bearings by stage and name, and findings on shafts without bearings."""
     loads: Loads = {}
     bare: list[str] = []
     for wheels in _shafts(stages, pairs):
@@ -129,7 +129,7 @@ def bearing_loads(stages: Mapping[str, Stage], pairs: Mapping[str, GearPair]) ->
 
 
 def _shafts(stages: Mapping[str, Stage], pairs: Mapping[str, GearPair]) -> Iterator[list[Wheel]]:
-    """The shafts in the order of the power, each with one wheel, or with two of successive stages."""
+    """Shafts in the order of the power, each with one wheel or with two wheels of successive stages."""
     driving = [Wheel(name, one, pairs[name], one.driving) for name, one in stages.items()]
     driven = [replace(one, side="gear" if one.side == "pinion" else "pinion") for one in driving]
     if driving[0].section.shared_shaft is not None:
@@ -155,7 +155,7 @@ def _shafts(stages: Mapping[str, Stage], pairs: Mapping[str, GearPair]) -> Itera
 
 
 def _by_shares(wheel: Wheel) -> Loads:
-    """Loads by the shares of the bearings of one wheel, checked to carry each force once."""
+    """Loads by shares of the bearings of one wheel, with a check that each force is carried once."""
     for name, one in wheel.bearings.items():
         if one.axial is not None:
             rule = "acts only with position_mm; without positions give axial_share"
@@ -179,7 +179,7 @@ def _by_shares(wheel: Wheel) -> Loads:
 
 
 def _by_positions(wheels: Sequence[Wheel]) -> Loads:
-    """Loads of the two bearings of a shaft, and of bearings that carry thrust alone, by static balance."""
+    """Loads of the two bearings of a shaft and of pure thrust bearings, by static balance."""
     loads: Loads = {}
     seats: list[tuple[Wheel, str, Bearing]] = [(w, name, one) for w in wheels for name, one in w.bearings.items()]
     for wheel, name, one in seats:
@@ -203,7 +203,7 @@ def _by_positions(wheels: Sequence[Wheel]) -> Loads:
 
 
 def _check_seat(one: Bearing, where: str) -> None:
-    """Refuse shares beside positions, several bearings at one position, and a bearing that carries nothing."""
+    """Raise an error for shares beside positions, several bearings at one position, and bearings without load."""
     for key in ("radial_share", "axial_share"):
         if key in one.model_fields_set:
             raise InputError("follows from the positions of its shaft; leave it out", where=f"{where}.{key}")
@@ -216,7 +216,7 @@ def _check_seat(one: Bearing, where: str) -> None:
 def _carrier(
     wheels: Sequence[Wheel], seats: Sequence[tuple[Wheel, str, Bearing]], thrust: float, largest: float
 ) -> Bearing | None:
-    """The bearing that takes the thrust of a shaft; None without thrust."""
+    """Bearing that takes the thrust of a shaft; None without thrust."""
     if abs(thrust) <= BALANCED * largest:
         return None
     side = "positive" if thrust > 0.0 else "negative"

@@ -1,4 +1,4 @@
-"""Tables of an efficiency: columns with unit, meaning and source; tooth and gearbox efficiency have one each."""
+"""Tables of an efficiency: columns with unit, meaning and source; tooth and gearbox efficiency are separate columns."""
 
 from __future__ import annotations
 
@@ -96,25 +96,25 @@ TABLES = {
 
 
 def present(losses: Losses) -> list[str]:
-    """Origins that have a part, in their order."""
+    """Origins with a part, in their order."""
     there = {origin for _, origin, _ in losses.by_origin}
     return [origin for origin in ORIGINS if origin in there]
 
 
 def map_table(losses: Losses) -> pd.DataFrame:
-    """One row a condition: power, total loss, both efficiencies (empty without torque), loss by origin, validity."""
+    """Table of conditions: power, total loss, efficiencies (empty without torque), loss by origin, validity."""
     origins = {f"{origin}_loss_W": losses.total(origins=(origin,)) for origin in present(losses)}
     return frame_of(losses, MAP).assign(**origins, validity=list(losses.validity))
 
 
 def part_table(losses: Losses) -> pd.DataFrame:
-    """One row a condition, one column a part: the loss of each mesh and of each part of every stage."""
+    """Loss of each mesh and part (columns) at each condition (rows)."""
     parts = {_column(origin): value for origin, value in losses.by_origin.items()}
     return frame_of(losses, AT).assign(total_loss_W=losses.total(), **parts)
 
 
 def loss_map(losses: Losses) -> pd.DataFrame:
-    """The loss map for drive-cycle tools: torque and power lost at each speed and torque of the input."""
+    """Loss map for drive-cycle tools: torque and power lost at each speed and torque of the input."""
     return frame_of(losses, LOSS_MAP).sort_values(["input_speed_rpm", "input_torque_Nm"], ignore_index=True)
 
 
@@ -134,7 +134,7 @@ def breakdown_table(at: Losses) -> pd.DataFrame:
 
 
 def stage_table(at: Losses) -> pd.DataFrame:
-    """One row a stage at one condition: which side drives, what comes in, and both efficiencies of the stage."""
+    """Table of stages at one condition: driving side, input, and tooth and total efficiency of the stage."""
     rows, power, speed = [], float(at.input_power[0]), float(at.speed[0])
     for stage in at.gearbox.stages:
         total, mesh = (float(at.total(stage=stage.name, origins=o)[0]) for o in (ORIGINS, MESH))
@@ -157,17 +157,17 @@ def stage_table(at: Losses) -> pd.DataFrame:
 
 
 def cycle_table(cycles: Sequence[MeshCycle]) -> pd.DataFrame:
-    """Loss, tooth efficiency, friction of the mesh and friction force of each stage over one base pitch."""
+    """Loss, tooth efficiency, mesh friction and friction force of each stage over one base pitch."""
     return pd.concat([frame_of(one, CYCLE) for one in cycles], ignore_index=True)
 
 
 def tooth_table(cycles: Sequence[MeshCycle]) -> pd.DataFrame:
-    """Forces of one tooth pair of each stage over its way through the mesh, friction on the pinion."""
+    """Forces of one tooth pair of each stage along its path of contact, friction on the pinion."""
     return pd.concat([frame_of(one, TOOTH_PAIR) for one in cycles], ignore_index=True)
 
 
 def duty_table(losses: Losses, hours: np.ndarray) -> pd.DataFrame:
-    """One row an operating point of a duty cycle: the columns of the map, and its energies."""
+    """Table of the operating points of a duty cycle: columns of the map, and energies."""
     table = map_table(losses)
     table.insert(2, "duration_h", hours)
     for name, power in (("input", losses.input_power), ("loss", losses.total())):
@@ -176,7 +176,7 @@ def duty_table(losses: Losses, hours: np.ndarray) -> pd.DataFrame:
 
 
 def duty_summary(losses: Losses, hours: np.ndarray) -> pd.DataFrame:
-    """One row: energies of a duty cycle in all and by origin; its mean efficiencies are ratios of energies."""
+    """Energies of a duty cycle, total and by origin, and mean efficiencies as ratios of energies, in one row."""
     to_energy = hours * SECONDS_PER_HOUR / JOULES_PER_KWH
     taken, lost, mesh = (
         float(np.sum(power * to_energy)) for power in (losses.input_power, losses.total(), losses.total(origins=MESH))

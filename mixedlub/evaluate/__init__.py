@@ -1,4 +1,4 @@
-"""Recordings of gear and disc rigs turned into friction, with intervals: one file an evaluation."""
+"""Friction coefficients with intervals from recordings of gear and disc rigs; each evaluation is a file."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ["EVALUATIONS", "Evaluated", "Evaluation", "evaluate"]
 
 
 class _ByName(Mapping[str, Evaluation]):
-    """The evaluations by name, found when they are first asked for."""
+    """Mapping of the evaluations by name, loaded at the first access."""
 
     def _all(self) -> dict[str, Evaluation]:
         return {one.name: one for one in declared("mixedlub.evaluate", "mixedlub.evaluations", "EVALUATION")}
@@ -30,18 +30,18 @@ class _ByName(Mapping[str, Evaluation]):
 
 
 EVALUATIONS = _ByName()
-"""Every evaluation by its name, those of other packages included (entry points ``mixedlub.evaluations``)."""
+"""Evaluations by name, including evaluations of other packages (entry points ``mixedlub.evaluations``)."""
 
 
 def evaluation(name: str) -> Evaluation:
-    """An evaluation by its name."""
+    """Return the evaluation of a name; raise an error with the nearest known name otherwise."""
     if name not in EVALUATIONS:
         raise InputError(f"no such evaluation; {nearest(name, EVALUATIONS)}", where="METHOD", value=name)
     return EVALUATIONS[name]
 
 
 def evaluate(name: str, path: Path | str) -> Evaluated:
-    """What an evaluation finds in the recordings that its file describes.
+    """Result of an evaluation of the recordings in its file.
 
     >>> evaluate("calorimetry", "rig.toml")
     Traceback (most recent call last):

@@ -1,4 +1,4 @@
-"""Load-dependent loss of gears turned into the coefficients of the local friction law of Löpenhaus."""
+"""Fit of the local friction law of Löpenhaus to measured load-dependent gear loss."""
 
 from __future__ import annotations
 
@@ -43,14 +43,14 @@ SOURCE = (
 )
 LAW = friction.find("loepenhaus")
 BAND = 0.25
-"""Band of the source about equal friction."""
+"""Relative half width of the band about equal friction in the source."""
 FACTOR = "surface_factor"
 LOSS_SD, SERIES_SD = "load_dependent_loss_W_sd", "load_dependent_loss_W_sd_series"
 Ends = tuple[Number, Number]
 
 
 class CalibrationFile(RigFile):
-    """Gears, oil and surfaces, measured losses, and which coefficients are free."""
+    """Input file: gears, oil, surfaces, measured losses and free coefficients."""
 
     schema_: Literal["mixedlub-calibration/1"] = key(
         "format of the file", example="mixedlub-calibration/1", alias="schema"
@@ -106,7 +106,7 @@ COLUMNS = (
 
 
 def _checked(file: CalibrationFile, table: Table) -> None:
-    """Refuse coefficients that are missing, unknown or both fixed and free, and surfaces without a meaning."""
+    """Raise an error for missing, unknown or doubly given coefficients and for surfaces without effect on the law."""
     known = [c.name for c in LAW.coefficients if c.name != FACTOR]
     for name in file.bounds:
         if name not in known:
@@ -142,7 +142,7 @@ def _roughness(rig: Rig, table: Table) -> np.ndarray:
 
 
 def _scatter(file: CalibrationFile, table: Table) -> Scatter:
-    """Errors of the losses as the readings state them; in proportion to the loss where nothing is stated."""
+    """Errors of the losses from the table; proportional to the loss if the table has none."""
     own = next((name for name in (OWN, LOSS_SD) if name in table), None)
     if SERIES_SD in table and "series" not in table:
         raise InputError("needs the column 'series'", where=table.source, value=SERIES_SD)
@@ -161,7 +161,7 @@ def _scatter(file: CalibrationFile, table: Table) -> Scatter:
 
 
 def run(file: CalibrationFile, path: Path) -> Evaluated:
-    """The coefficients, calculated over measured friction, and a law for each surface."""
+    """Fit the coefficients; compare calculated with measured friction and write a law for each surface."""
     table = read_table(named_file(path.parent, file.readings, "readings"), COLUMNS)
     _checked(file, table)
     rig = Rig(file, path.parent, BEYOND_VISCOSITY)
@@ -198,7 +198,7 @@ def run(file: CalibrationFile, path: Path) -> Evaluated:
 def _coefficients(
     file: CalibrationFile, fit: Fit, free: Mapping[str, Ends], fixed: Mapping[str, float]
 ) -> pd.DataFrame:
-    """A row a coefficient, free ones first with interval and bounds."""
+    """Table of coefficients, the free ones first with interval and bounds."""
     rows: list[dict[str, Any]] = []
     for (name, value), sd, half in zip(fit.values.items(), fit.sd, fit.half_width, strict=True):
         low, high = free[name]
@@ -210,7 +210,7 @@ def _coefficients(
 
 
 def _readings(table: Table, fit: Fit, power: np.ndarray, speed: np.ndarray) -> pd.DataFrame:
-    """A row a reading: loss and mean friction, measured and calculated."""
+    """Table of readings: measured and calculated loss and mean friction."""
     measured, names = table["load_dependent_loss_W"], ("torque_Nm", "speed_rpm", "oil_temperature_C")
     found = {name: table[name] for name in ("run", *names, "pinion_surface", "gear_surface")}
     found |= {"pitch_line_velocity_m_s": speed, "load_dependent_loss_W": measured}
@@ -220,7 +220,7 @@ def _readings(table: Table, fit: Fit, power: np.ndarray, speed: np.ndarray) -> p
 
 
 def _quality(readings: pd.DataFrame, fit: Fit) -> pd.DataFrame:
-    """One row: coefficients of determination of loss and mean friction, band, scatter."""
+    """Coefficients of determination of loss and mean friction, band and scatter, in one row."""
     rms = float(np.sqrt(np.mean((readings["calculated_over_measured"] - 1.0) ** 2)))
     row = {
         "readings": len(readings),
@@ -263,13 +263,13 @@ def _agreement(readings: pd.DataFrame) -> Panel:
 
 
 PLACES = 121
-"""Points of the figure along the path."""
+"""Points of the figure along the path of contact."""
 
 
 def _local(
     rig: Rig, file: CalibrationFile, table: Table, fit: Fit, fixed: Mapping[str, float], contacts: Contacts
 ) -> Panel:
-    """Figure 9 of the source: local friction over the path at the readings of the middle torque, by speed."""
+    """Figure 9 of the source: local friction along the path of contact at the median torque, by speed."""
     pair = rig.gears
     angle = np.linspace(pair.path_start, pair.path_end, PLACES) / pair.base_radius[0]
     points = at_roll_angle(pair, rig.sharing, angle, slices=1)

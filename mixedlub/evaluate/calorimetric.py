@@ -1,4 +1,4 @@
-"""Heat that the oil carries away, turned into load-dependent gear loss and the mean friction of the mesh."""
+"""Load-dependent gear loss and mean friction of the mesh from the heat carried away by the oil."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ class Friction(Section):
 
 
 class CalorimetricFile(RigFile):
-    """Gears, oil and calorimeter of a rig whose oil takes up the loss of the gears."""
+    """Input file of a rig with gears, oil and a calorimeter for the heat of the oil."""
 
     schema_: Literal["mixedlub-calorimetric/1"] = key(
         "format of the file", example="mixedlub-calorimetric/1", alias="schema"
@@ -104,12 +104,12 @@ COLUMNS = (
 
 SURFACES = ("pinion_surface", "gear_surface")
 MOST_TORQUES = 24
-"""Cost limit. Torques at which the load is distributed; the loss factor of others is interpolated."""
+"""Cost limit. Torques with a load distribution; loss factors at other torques are interpolated."""
 
 
 @dataclass(frozen=True, eq=False)
 class Heat:
-    """Heat balance of n readings, W: what the oil took up and what of it the gears lost, with its errors."""
+    """Heat balance of n readings (W): heat taken up by the oil, loss of the gears, and errors of the loss."""
 
     oil: np.ndarray
     loss: np.ndarray
@@ -117,9 +117,9 @@ class Heat:
 
 
 def oil_heat(density: np.ndarray, specific_heat: float, flow: np.ndarray, rise: np.ndarray) -> np.ndarray:
-    r"""Heat that the oil takes up (W), :math:`\dot Q = c_p\,\rho\,\dot V\,(\theta_{out} - \theta_{in})`.
+    r"""Heat taken up by the oil (W), :math:`\dot Q = c_p\,\rho\,\dot V\,(\theta_{out} - \theta_{in})`.
 
-    Density (kg/m3) at the temperature where the flow (m3/s) is read, specific heat in J/(kg K), rise in K.
+    Density (kg/m3) at the temperature of the flow meter, specific heat in J/(kg K), flow in m3/s, rise in K.
     Source: "Measurement and Modelling of Friction for Cylindrical Gears with Pitch Line Velocities up to 100 m/s",
     equation 8.
 
@@ -130,7 +130,7 @@ def oil_heat(density: np.ndarray, specific_heat: float, flow: np.ndarray, rise: 
 
 
 def heat_balance(table: Table, file: CalorimetricFile, density: np.ndarray, specific_heat: float) -> Heat:
-    """Loss of the gears from the heat of the oil, of the shafts and of the walls."""
+    """Loss of the gears from the heat balance of oil, shafts and walls."""
     rise = table["oil_outlet_temperature_C"] - table["oil_inlet_temperature_C"]
     if np.any(rise <= 0.0):
         worst = int(np.argmin(rise))
@@ -162,7 +162,7 @@ def _outlet(table: Table, row: int) -> float:
 
 
 def _difference(table: Table, warm: str, cold: str, conductance: float) -> np.ndarray:
-    """Difference of two temperatures; zero where no conductance asks for it."""
+    """Difference of two temperatures; zero without a conductance."""
     if not conductance:
         return np.zeros(len(table))
     for name in (warm, cold):
@@ -172,7 +172,7 @@ def _difference(table: Table, warm: str, cold: str, conductance: float) -> np.nd
 
 
 def loss_factor(pair: GearPair, shared: Sharing, torque: np.ndarray) -> np.ndarray:
-    """Loss factor of the local load at each torque; that of the smallest loaded stage where there is no load."""
+    """Local loss factor at each torque; at zero load, the factor of the smallest load."""
     loaded = np.unique(torque[torque > 0.0])
     if loaded.size == 0:
         raise InputError("no reading has a load, so there is no friction to find", where="torque_Nm", value=0.0)
@@ -182,7 +182,7 @@ def loss_factor(pair: GearPair, shared: Sharing, torque: np.ndarray) -> np.ndarr
 
 
 def _series(table: Table) -> tuple[list[str], np.ndarray]:
-    """Names of the series and the series of each reading: as named, or of one speed, oil temperature and surfaces."""
+    """Names of the series and series of each reading: as given, or by speed, oil temperature and surfaces."""
     if "series" in table:
         names, index = np.unique(table["series"], return_inverse=True)
         return names.tolist(), index
@@ -199,7 +199,7 @@ def _series(table: Table) -> tuple[list[str], np.ndarray]:
 
 
 def run(file: CalorimetricFile, path: Path) -> Evaluated:
-    """Heat balance, split of the loss over the load stages of each series, and mean friction."""
+    """Evaluate the heat balance, split the loss of each series over its load stages, and return mean friction."""
     table = read_table(named_file(path.parent, file.readings, "readings"), COLUMNS)
     with collected() as findings:
         pair, shared = gear_pair(file.gears), sharing(file.gears.load_sharing, path.parent)
@@ -252,7 +252,7 @@ def _loss_table(
     splits: list[Split],
     pitch_speed: np.ndarray,
 ) -> pd.DataFrame:
-    """One row a reading."""
+    """Table of readings."""
     found: dict[str, Any] = {"run": table["run"], "series": np.array(names)[index]}
     found |= {name: table[name] for name in ("torque_Nm", "speed_rpm")}
     found |= {"oil_temperature_C": table["oil_inlet_temperature_C"]}
@@ -267,7 +267,7 @@ def _loss_table(
 
 
 def _series_table(table: Table, splits: list[Split], pitch_speed: np.ndarray) -> pd.DataFrame:
-    """One row a series."""
+    """Table of series."""
     rows = []
     for split in splits:
         row: dict[str, Any] = {"series": split.name, "readings": split.rows.size}
@@ -282,7 +282,7 @@ def _series_table(table: Table, splits: list[Split], pitch_speed: np.ndarray) ->
 
 
 def _budget(split: Split) -> pd.DataFrame:
-    """What each source contributes to the standard deviations of a series."""
+    """Contribution of each source of error to the standard deviations of a series."""
     sources = list(next(iter(split.found.values()))[1])
     columns_ = {f"{name}_sd": [float(budget[s]) for s in sources] for name, (_, budget) in split.found.items()}
     return pd.DataFrame({"series": split.name, "source": sources, **columns_})
@@ -316,7 +316,7 @@ def _figures(
 
 
 def _case(file: CalorimetricFile, path: Path, table: Table, heat: Heat) -> CaseDraft | None:
-    """The readings as a case of gear loss, load-independent loss included."""
+    """Case of gear loss from the readings, load-independent loss included."""
     if not file.surfaces or any(name not in table for name in SURFACES):
         return None
     for name in SURFACES:
@@ -340,7 +340,7 @@ def _case(file: CalorimetricFile, path: Path, table: Table, heat: Heat) -> CaseD
 
 
 OIL_IN_HEAT = {"density_15C_kg_m3": 1000.0, "density_change_per_K": 7e-4, "specific_heat_J_kgK": 2000.0}
-"""Properties of the oil of the template that a heat balance reads."""
+"""Oil properties of the template for the heat balance."""
 
 EVALUATION = Evaluation(
     name="calorimetric",

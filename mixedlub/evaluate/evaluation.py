@@ -1,4 +1,4 @@
-"""Description of an evaluation, and the case folder for the diagnosis."""
+"""Definition of an evaluation, and case folders for the diagnosis."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ from profiles.errors import InputError, nearest
 
 __all__ = ["CaseDraft", "Curve", "Evaluated", "Evaluation", "Panel"]
 Evaluated = Result
-"""Findings of an evaluation."""
+"""Result of an evaluation."""
 
 
 @dataclass(frozen=True)
 class Evaluation:
-    """A way from recordings to friction.
+    """Method to obtain friction from recordings.
 
-    ``file`` is the class of its TOML file, ``columns`` are those of each table that it names; ``run(file, path)``
-    evaluates a file that was read from ``path``. ``results`` describes the tables of results. ``example`` has the
-    sections of its template; the tables that these name are in ``templates/NAME`` beside the module of ``run``.
+    ``file``: class of its TOML file; ``columns``: columns of each table named in the file; ``run(file, path)``:
+    evaluation of a file read from ``path``; ``results``: columns of the result tables; ``example``: sections of the
+    template, with tables in ``templates/NAME`` beside the module of ``run``.
     """
 
     name: str
@@ -42,7 +42,7 @@ class Evaluation:
 
     @property
     def folder(self) -> Path:
-        """The folder with the tables of its template."""
+        """Folder of the template's tables."""
         return Path(inspect.getfile(self.run)).parent / "templates" / self.name.replace("-", "_")
 
 
@@ -52,13 +52,13 @@ BEYOND_VISCOSITY = (
     "thermal_conductivity_W_mK",
     "specific_heat_J_kgK",
 )
-"""Keys of the oil that an evaluation which reads its viscosity alone does not read."""
+"""Oil keys without effect in evaluations that use viscosity only."""
 FILES = ("table", "profile", "traces", "traces_along", "map", "oil")
-"""Keys whose values may be files beside the one that names them."""
+"""Keys with values that may be names of files."""
 
 
 def attachments(sections: Any, folder: Path) -> dict[str, bytes]:
-    """The files that sections of a case name, by their path in the case."""
+    """Files named in the sections of a case, by path relative to the case."""
     found: dict[str, bytes] = {}
     for key, value in sections.items() if isinstance(sections, Mapping) else ():
         found |= attachments(value, folder)
@@ -71,7 +71,7 @@ def attachments(sections: Any, folder: Path) -> dict[str, bytes]:
 
 
 def file_name(name: str) -> str:
-    """A name of the user as part of a file name.
+    """User-given name as part of a file name.
 
     >>> file_name("ground / polished, both signs")
     'ground_polished_both_signs'
@@ -80,7 +80,7 @@ def file_name(name: str) -> str:
 
 
 def check_surfaces(known: Collection[str], named: Iterable[object], where: str) -> None:
-    """Refuse a surface that the file does not describe."""
+    """Raise an error for a surface missing from the file."""
     for name in sorted({str(one) for one in named} - set(known)):
         raise InputError(f"the file has no such surface; {nearest(name, known)}", where=where, value=name)
 
@@ -93,7 +93,7 @@ def case_draft(
     columns: Mapping[str, np.ndarray],
     **further: Any,
 ) -> CaseDraft:
-    """A case of a kind with sections as the file at ``path`` has them, and ``further`` ones."""
+    """Case with ``sections`` copied from the file at ``path`` and ``further`` sections."""
     given = read_toml(path)
     taken = ("boundary_friction", "description", *sections)
     system = {"kind": kind, **{name: given[name] for name in taken if name in given}, **further}

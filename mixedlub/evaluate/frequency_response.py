@@ -1,4 +1,4 @@
-"""Force behind a periodic displacement: division by the frequency response of the rig, with regularisation."""
+"""Force from a periodic displacement: regularised division by the frequency response of the rig."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from profiles.errors import InputError
 
 @dataclass(frozen=True, eq=False)
 class Response:
-    """Displacement per force (m/N in SI, or any) at rising frequencies (Hz), complex."""
+    """Complex displacement per force (m/N in SI, or other units) at ascending frequencies (Hz)."""
 
     frequency: np.ndarray
     value: np.ndarray
     source: str
 
     def at(self, frequency: np.ndarray) -> np.ndarray:
-        """The response between its frequencies, linear in real and imaginary part."""
+        """Response at other frequencies, by linear interpolation of real and imaginary part."""
         outside = (frequency < self.frequency[0]) | (frequency > self.frequency[-1] * (1.0 + 1e-6))
         if np.any(outside):
             rule = f"the response is known from {self.frequency[0]:g} to {self.frequency[-1]:g} Hz"
@@ -29,13 +29,13 @@ class Response:
 
 @dataclass(frozen=True, eq=False)
 class Division:
-    """Harmonics 0 to J of a period: their inverse response, and the gain below 1 that regularisation leaves."""
+    """Regularised inverse response at harmonics 0 to J of a period, and the gain (at most 1) of the regularisation."""
 
     inverse: np.ndarray
     gain: np.ndarray
 
     def force(self, displacement: np.ndarray) -> np.ndarray:
-        """Harmonics (..., J+1) of the force of displacements over one period (..., M)."""
+        """Force harmonics (..., J+1) of displacements over one period (..., M)."""
         return self.harmonics(displacement) * self.inverse
 
     def harmonics(self, signal: np.ndarray) -> np.ndarray:
@@ -51,9 +51,9 @@ def over_period(harmonics: np.ndarray, count: int) -> np.ndarray:
 
 
 def division(response: Response, fundamental: float, low_pass: float, regularisation: float, least: float) -> Division:
-    r"""Division of the harmonics up to ``low_pass`` by the response, :math:`F_j = X_j H_j^*/(|H_j|^2 + \epsilon^2)`.
+    r"""Division of harmonics up to ``low_pass`` by the response, :math:`F_j = X_j H_j^*/(|H_j|^2 + \epsilon^2)`.
 
-    epsilon is ``regularisation`` times the static response. A response below ``least`` of the static one is refused.
+    epsilon: ``regularisation`` times the static response. A response below ``least`` of the static one is an error.
 
     Source: Vaishya and Houser 1999, AGMA 99FTMS1, section 8, for the division and the filter.
 

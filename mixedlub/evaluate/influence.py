@@ -1,4 +1,4 @@
-"""Influence of the normal and the friction force of each tooth on strain gauges, as polynomials in its roll angle."""
+"""Influence of normal and friction force of each tooth on strain gauges, as polynomials in the roll angle."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ FORCES = ("normal force", "friction force")
 class Influence:
     """Influence coefficients of G gauges and K teeth.
 
-    ``coefficients`` (G, K, 2, D+1) belong to Chebyshev polynomials over the calibrated roll angles ``low`` to ``high``;
-    ``modes`` (G, K, P, 2, D+1) are independent errors of them, each of one standard deviation. ``residual`` (G,) is the
-    scatter of the calibration about the polynomials.
+    ``coefficients`` (G, K, 2, D+1): Chebyshev polynomials over the calibrated roll angles ``low`` to ``high``.
+    ``modes`` (G, K, P, 2, D+1): independent errors of the coefficients, one standard deviation each. ``residual`` (G,):
+    scatter of the calibration.
     """
 
     low: float
@@ -36,24 +36,24 @@ class Influence:
         return (roll_angle < self.low - slack) | (roll_angle > self.high + slack)
 
     def check(self, roll_angle: np.ndarray, place: str) -> None:
-        """Refuse roll angles outside the calibration."""
+        """Raise an error for roll angles outside the calibration."""
         outside = self.is_outside(roll_angle)
         if np.any(outside):
             rule = f"the gauges are calibrated from {self.low:.4g} to {self.high:.4g}°"
             raise InputError(rule, where=f"{place}: roll angle", value=round(float(roll_angle[outside][0]), 3))
 
     def at(self, roll_angle: np.ndarray, tooth: int) -> np.ndarray:
-        """Strain per force (M, G, 2) of one tooth at its roll angles (M,)."""
+        """Strain per force (M, G, 2) of a tooth at its roll angles (M,)."""
         values = chebval(self._scaled(roll_angle), np.moveaxis(self.coefficients[:, tooth], -1, 0))
         return np.moveaxis(values, -1, 0)
 
     def slope(self, roll_angle: np.ndarray, tooth: int) -> np.ndarray:
-        """Its slope over the roll angle (M, G, 2)."""
+        """Derivative of the strain per force with respect to the roll angle (M, G, 2)."""
         derived = chebder(np.moveaxis(self.coefficients[:, tooth], -1, 0))
         return np.moveaxis(chebval(self._scaled(roll_angle), derived), -1, 0) * 2.0 / (self.high - self.low)
 
     def errors(self, roll_angle: np.ndarray, tooth: int, gauge: int) -> np.ndarray:
-        """Errors of the strain per force of one gauge, mode by mode (M, P, 2)."""
+        """Errors (M, P, 2) of the strain per force of a gauge, by mode."""
         basis = chebvander(self._scaled(roll_angle), self.modes.shape[-1] - 1)
         return np.einsum("md,pfd->mpf", basis, self.modes[gauge, tooth])
 
@@ -71,7 +71,7 @@ def fit_influence(
     r"""Influence coefficients by least squares, :math:`S = S_0 + a_n(\theta) F_n + a_f(\theta) F_f`.
 
     One tooth is loaded at a time: ``tooth`` (n,) from 0, ``forces`` (n, 2) normal and friction, ``strains`` (n, G). The
-    zero S_0 of each gauge is fitted with the polynomials, so that the loads need not start at none.
+    zero S_0 of each gauge is fitted too, since the smallest load need not be zero.
 
     Source: Rebbechi, Oswald and Townsend 1996, NASA TM-107279, equations 1 to 3.
     """
@@ -107,7 +107,7 @@ def fit_influence(
 
 
 def _check_loads(roll_angle: np.ndarray, forces: np.ndarray, number: int, degree: int, source: str) -> None:
-    """Refuse a calibration of a tooth without loads, or at too few roll angles."""
+    """Raise an error for a tooth without calibration loads or with too few roll angles."""
     place = f"{source}: tooth {number + 1}"
     for name, force in zip(FORCES, forces.T, strict=True):
         angles = np.unique(roll_angle[force != 0.0]).size

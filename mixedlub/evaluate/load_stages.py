@@ -1,4 +1,4 @@
-"""Split of gear loss over load stages into a load-independent part and the friction of the mesh."""
+"""Split of gear loss over load stages into load-independent loss and friction of the mesh."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from mixedlub.evaluate.uncertainty import Errors, combined, interval
 from profiles.errors import InputError
 
 FIT_LEVEL = 0.05
-"""Chance of a misfit, at the stated errors, below which these are widened to the scatter about the line."""
+"""Probability of the misfit below which the stated errors are widened to the scatter about the line."""
 
 OWN, COMMON = "load_dependent_loss_W_sd_own", "load_dependent_loss_relative_sd_common"
-"""Columns of the errors of the load-dependent loss from reading to reading, and of the one common to all readings."""
+"""Columns of the errors of the load-dependent loss: per reading, and common to all readings."""
 
 
 @dataclass(frozen=True, eq=False)
 class LoadStages:
-    """Torque on the pinion (N m), input power (W) and loss factor of the local load, a value a reading."""
+    """Torque on the pinion (N m), input power (W) and loss factor of the local load, by reading."""
 
     torque: np.ndarray
     power: np.ndarray
@@ -28,17 +28,17 @@ class LoadStages:
 
     @property
     def product(self) -> np.ndarray:
-        """Input power times loss factor (W), of which the load-dependent loss is the share mu."""
+        """Input power times loss factor (W); times the mean friction mu: load-dependent loss."""
         return self.power * self.factor
 
     def take(self, rows: np.ndarray) -> LoadStages:
-        """Some of the readings."""
+        """Subset of the readings."""
         return LoadStages(self.torque[rows], self.power[rows], self.factor[rows])
 
 
 @dataclass(frozen=True, eq=False)
 class Split:
-    """A series split: the line, columns of its readings, and load-independent loss and friction with their budgets."""
+    """Split of a series: line, columns of readings, load-independent loss and friction with error budgets."""
 
     name: str
     rows: np.ndarray
@@ -60,12 +60,11 @@ def split_loss(
     relative: Mapping[str, float],
     load_exponent_sd: float,
 ) -> Split:
-    r"""Load-independent loss and friction of a series at one speed, P_VZ = P_VZ0 + mu P_a H_VL.
+    r"""Load-independent loss and mean friction of a series at one speed, P_VZ = P_VZ0 + mu P_a H_VL.
 
-    Generalised least squares over the input power times the loss factor: over the torque, a loss factor that grows
-    with the load would bend the line. ``relative`` are relative errors of that product, by source. Friction that
-    changes with the load by an exponent of standard deviation ``load_exponent_sd`` bends it too; the weights and the
-    interval allow for that.
+    Generalised least squares over input power times loss factor; over torque the line would be bent, since the loss
+    factor grows with load. ``relative``: relative errors of that product, by source. ``load_exponent_sd``: standard
+    deviation of the exponent of friction over load, which bends the line too; weights and interval allow for it.
 
     Source: "Measurement and Modelling of Friction for Cylindrical Gears with Pitch Line Velocities up to 100 m/s",
     equations 1 and 3, figure 4.
@@ -95,7 +94,7 @@ def split_loss(
     to_intercept, one = fit[0], np.eye(x.size)
 
     def budget(weights: np.ndarray, of_intercept: np.ndarray) -> dict[str, np.ndarray]:
-        """Sources of ``weights @ loss``, whose share of the intercept the bend moves."""
+        """Error budget of ``weights @ loss``; ``of_intercept``: contribution of the intercept, moved by the bend."""
         moved = np.abs(of_intercept * (to_intercept @ bend)) * load_exponent_sd
         return {**everything.budget(weights), "friction over load": moved}
 
@@ -117,14 +116,14 @@ def split_loss(
 
 
 def _relative(errors: Errors, dependent: np.ndarray, loss: np.ndarray) -> np.ndarray:
-    """Relative standard deviation of the load-dependent loss (W) by errors common to all; zero where there is none.
+    """Relative standard deviation of the load-dependent loss (W) by errors common to all readings; zero at zero loss.
 
-    All sources together are taken as one fully correlated error, as a fit of the losses has one for all of them.
+    The sources are combined into one fully correlated error, as in a fit of the losses.
     """
     moved = combined({name: dependent @ one for name, one in errors.common.items()})
     return np.divide(np.abs(moved), np.abs(loss), out=np.zeros_like(loss), where=np.abs(loss) > 0.0)
 
 
 def _own(errors: Errors, weights: np.ndarray, bend: float, exponent_sd: float) -> np.ndarray:
-    """Standard deviation of the load-dependent loss, which knows nothing of the errors of torque and loss factor."""
+    """Standard deviation of the load-dependent loss without the errors of torque and loss factor."""
     return np.hypot(errors.sd(weights), abs(bend) * exponent_sd)

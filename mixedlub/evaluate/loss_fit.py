@@ -1,4 +1,4 @@
-"""Coefficients of a local friction law from the load-dependent loss of gears, by bounded least squares."""
+"""Bounded least-squares fit of a local friction law to the load-dependent loss of gears."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from mixedlub.laws.contact import line_hertz_pressure
 from profiles.errors import InputError, RunError
 
 LARGEST_CONDITION = 1e6
-"""Judgement. Condition number of the scaled derivatives above which readings do not tell coefficients apart."""
+"""Judgement. Largest condition number of the scaled derivatives at which coefficients are distinguishable."""
 NAMED = 0.3
-"""Judgement. Part of a coefficient in an undetermined combination from which on it is named."""
+"""Judgement. Smallest component of an undetermined combination at which a message names the coefficient."""
 
 
 @dataclass(frozen=True, eq=False)
 class Contacts:
-    """What the law reads at each point (n, M) of n readings, and the sliding power of the points (W)."""
+    """Inputs of the law at M points of n readings (n, M), and sliding power of the points (W)."""
 
     entrainment_speed: np.ndarray
     hertz_pressure: np.ndarray
@@ -35,7 +35,7 @@ class Contacts:
     sliding_power: np.ndarray
 
     def friction(self, coefficients: Mapping[str, float], surface_factor: np.ndarray) -> np.ndarray:
-        """Friction at each point; the factor of the surface by reading."""
+        """Friction coefficient at each point; ``surface_factor`` is given by reading."""
         return np.asarray(
             loepenhaus(
                 self.entrainment_speed,
@@ -57,7 +57,7 @@ class Contacts:
 def contacts_of(
     mesh: Mesh, torque: np.ndarray, speed: np.ndarray, viscosity: np.ndarray, roughness: np.ndarray
 ) -> Contacts:
-    """The points of a mesh at torques (N m) and angular speeds of the pinion, with oil and Ra of each reading."""
+    """Contact points of a mesh at torques (N m) and angular pinion speeds (rad/s), with oil and Ra of each reading."""
     pair, omega = mesh.pair, speed[:, None]
     entrainment, sliding = mesh.entrainment_per_speed * omega, np.abs(mesh.sliding_per_speed) * omega
     force = mesh.load_share(torque) * torque[:, None] / pair.base_radius[0]
@@ -71,10 +71,9 @@ def contacts_of(
 class Scatter:
     """Errors of n measured losses.
 
-    ``own`` (W): standard deviations from reading to reading, in proportion only unless ``known``. ``common``: relative
-    standard deviation of one error that scales all losses. ``series`` names the readings whose load-independent loss
-    was taken off as one; its error moves them alike, by an unknown amount or one of standard deviation ``series_sd``
-    (W).
+    ``own`` (W): standard deviations per reading, only proportional to them unless ``known``. ``common``: relative
+    standard deviation of one error that scales all losses. ``series``: readings with a common load-independent loss;
+    its error shifts their losses alike, with standard deviation ``series_sd`` (W) or without bound.
     """
 
     own: np.ndarray
@@ -84,9 +83,9 @@ class Scatter:
     series_sd: np.ndarray | None = None
 
     def nuisance(self) -> tuple[list[str], np.ndarray, np.ndarray]:
-        """Names of the shared errors, how each moves the readings (n, k), and prior standard deviations (inf: none).
+        """Names of the shared errors, their effect on the readings (n, k) and prior sd (inf: no prior).
 
-        The first scales the losses, the others are shifts in units of the mean ``own``.
+        The first error scales the losses, the others are shifts in units of the mean ``own``.
         """
         names, moved, prior = ["the error common to all"], [self.common], [1.0]
         kinds = np.unique([] if self.series is None else self.series)
@@ -101,10 +100,10 @@ class Scatter:
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """Free coefficients by name with their covariance; ``at_bound`` names those that a bound holds.
+    """Free coefficients with covariance; ``at_bound``: names of coefficients at a bound.
 
-    ``shared`` (p,) is the part of each variance that errors of stated size bring which readings share. ``own_90`` is
-    the half width of the 90 % interval over the standard deviation of the rest.
+    ``shared`` (p,): part of each variance from errors of stated size common to readings. ``own_90``: half width of the
+    90 % interval over the standard deviation of the remainder.
     """
 
     values: Mapping[str, float]
@@ -118,18 +117,18 @@ class Fit:
 
     @property
     def sd(self) -> np.ndarray:
-        """Standard deviations; nan of a coefficient at a bound."""
+        """Standard deviations; nan for a coefficient at a bound."""
         held = [name in self.at_bound for name in self.values]
         return np.where(held, np.nan, np.sqrt(np.diag(self.covariance)))
 
     @property
     def half_width(self) -> np.ndarray:
-        """Half widths of the 90 % intervals: Student's t for errors that the scatter gives, normal for stated ones."""
+        """Half widths of the 90 % intervals: Student's t for errors from scatter, normal for stated errors."""
         return np.sqrt(self.own_90**2 * (self.sd**2 - self.shared) + NORMAL_90**2 * self.shared)
 
     @property
     def correlations(self) -> pd.DataFrame:
-        """How errors of the free coefficients go together."""
+        """Correlation matrix of the free coefficients."""
         sd = self.sd
         table = pd.DataFrame(self.covariance / np.outer(sd, sd), columns=list(self.values))
         table.insert(0, "coefficient", list(self.values))
@@ -144,15 +143,15 @@ def calibrated(
     bounds: Mapping[str, tuple[float, float]],
     surfaces: np.ndarray,
 ) -> Fit:
-    r"""The free coefficients that bring the calculated loss closest to the measured one.
+    r"""Fit the free coefficients to the measured losses.
 
     .. math:: \min_{c,\,e,\,\delta} \sum_i
         \left(\frac{P_i(c)\,(1 + s_i e) + \delta_{k(i)} - P_{VZP,i}}{\sigma_i}\right)^2
         + e^2 + \sum_k \left(\frac{\delta_k}{\sigma_k}\right)^2,\quad c_{low} \le c \le c_{high}
 
-    ``bounds`` are by coefficient, or by ``surface_factor.NAME``; ``surfaces`` (n,) names the surface of each reading.
-    Own errors that are known are widened where the readings scatter more; the size of others follows from the misfit.
-    The covariance is that of the linearised model.
+    ``bounds``: by coefficient or ``surface_factor.NAME``; ``surfaces`` (n,): surface of each reading. Known errors per
+    reading are widened if the scatter is larger; unknown errors follow from the misfit. The covariance is of the
+    linearised model.
 
     Source: "Measurement and Modelling of Friction for Cylindrical Gears with Pitch Line Velocities up to 100 m/s",
     equation 9 and figure 8.
@@ -212,7 +211,7 @@ def calibrated(
 
 
 def _inverse(jacobian: np.ndarray, names: list[str]) -> np.ndarray:
-    """Inverse of the normal matrix; coefficients that the readings do not tell apart are refused by name."""
+    """Inverse of the normal matrix; raise an error that names indistinguishable coefficients."""
     size = np.linalg.norm(jacobian, axis=0)
     if size.size and not size.all():
         raise InputError("the loss does not depend on it", where="bounds", value=names[int(np.argmin(size))])

@@ -1,4 +1,4 @@
-"""Friction coefficients of a mesh cycle from the harmonics of the friction force of all pairs in contact."""
+"""Friction coefficients of a mesh cycle from harmonics of the total friction force."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from mixedlub.gear import GearPair, Sharing, at_roll_angle
 from profiles.errors import InputError
 
 LARGEST_CONDITION = 1e4
-"""Condition number above which harmonics do not determine the local friction."""
+"""Largest condition number at which harmonics determine local friction."""
 
 
 @dataclass(frozen=True)
@@ -32,9 +32,9 @@ class Meters:
 
 @dataclass(frozen=True, eq=False)
 class Pattern:
-    """Friction force over a mesh cycle (P, M), N per unit of friction at each of P points of the path.
+    """Friction force over a mesh cycle (P, M), in N per unit of friction at each of P points of the path.
 
-    ``roll_angle`` (P,) are these points, deg; ``work`` (P,) weights them to the mean by sliding work.
+    ``roll_angle`` (P,): roll angles of the points (deg); ``work`` (P,): weights of the mean by sliding work.
     """
 
     roll_angle: np.ndarray
@@ -44,9 +44,9 @@ class Pattern:
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """Friction force over the cycle (M,), and friction coefficients at the points of the path and on average.
+    """Friction force over the cycle (M,), and friction coefficients at points of the path and on average.
 
-    Of each ``sd``, ``sd_own`` is the part that the turns tell.
+    ``sd_own``: part of ``sd`` estimated from the scatter between turns.
     """
 
     force: np.ndarray
@@ -63,12 +63,12 @@ class Found:
 
 
 def cycle_pattern(pair: GearPair, shared: Sharing, torque: float, first: float, points: int, count: int) -> Pattern:
-    r"""What friction at points of the path adds to the force of a mesh cycle.
+    r"""Friction force over a mesh cycle per unit of friction at points of the path.
 
     .. math:: F = \sum_k \mu(\theta_k)\, W_k\, \mathrm{sign}(\theta_k - \theta_P)
 
-    Between the points, friction is linear; with one point it is one coefficient. ``first`` is the roll angle (deg) of a
-    pinion tooth at the start of the cycle; loads are those of the load sharing at the torque (N m).
+    Friction is linear between the points; a single point means constant friction. ``first``: roll angle (deg) of a
+    pinion tooth at the start of the cycle. Loads follow from the load sharing at the torque (N m).
 
     Source: Vaishya and Houser 1999, AGMA 99FTMS1, equation 6.4.
     """
@@ -104,11 +104,11 @@ def friction_of_cycle(
     meters: Meters,
     name: str,
 ) -> Found:
-    """Force and friction of the average mesh cycle (displacements in um), with their standard deviations.
+    """Force and friction of the average mesh cycle (displacements in um), with standard deviations.
 
-    ``leak`` is the displacement that the force along the line of action causes, ``turned`` the pattern at a roll angle
-    one standard deviation on. Friction follows by least squares from the harmonics kept, so that the filter does not
-    lower it. Its mean is over the path of contact, weighted with load and sliding.
+    ``leak``: displacement caused by the force along the line of action; ``turned``: pattern at a roll angle larger by
+    one standard deviation. Friction is a least-squares fit to the harmonics kept, so that the filter does not reduce
+    it. Its mean is over the path of contact, weighted with load and sliding.
     """
     count = average.mean.shape[0]
     keep = np.ones(divided.inverse.size)
@@ -155,13 +155,13 @@ def friction_of_cycle(
 
 
 def _as_real(harmonics: np.ndarray) -> np.ndarray:
-    """Real and imaginary parts side by side (..., 2 J + 1), scaled so that squares add up to the mean square."""
+    """Real and imaginary parts side by side (..., 2 J + 1), scaled to make the sum of squares the mean square."""
     rest = harmonics[..., 1:] * math.sqrt(2.0)
     return np.concatenate([harmonics[..., :1].real, rest.real, rest.imag], axis=-1)
 
 
 def _as_complex(parts: np.ndarray) -> np.ndarray:
-    """The harmonics of their real and imaginary parts."""
+    """Complex harmonics from the arrays of `_as_real`."""
     count = (parts.shape[-1] - 1) // 2
     rest = (parts[..., 1 : 1 + count] + 1j * parts[..., 1 + count :]) / math.sqrt(2.0)
     return np.concatenate([parts[..., :1], rest], axis=-1)

@@ -1,4 +1,4 @@
-"""Recordings of running spur gears, as files of several evaluations describe them, and their case of mesh friction."""
+"""Recordings of running spur gears common to several evaluations, and their case of mesh friction."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from profiles.errors import InputError
 
 Positive = Annotated[Number, Field(gt=0.0)]
 CONDITIONS = ("torque_Nm", "speed_rpm", "oil_temperature_C", "pinion_surface", "gear_surface")
-"""Columns of a case that a recording has one value of."""
+"""Case columns with one value per recording."""
 
 
 class MeshRecording(Section):
@@ -45,7 +45,7 @@ class SpurGearFile(RigFile):
 
 
 def not_negative(place: str, found: Mapping[str, Any], turn: str) -> Iterator[str]:
-    """Refuse friction that drives the sliding, and tell one that may do so; ``turn`` says which sign to turn."""
+    """Raise an error if friction drives the sliding, yield a note if it may; ``turn`` names the sign to change."""
     mean, high = found["mean_friction"], found["mean_friction_high90"]
     if high < 0.0:
         rule = f"mean friction is below zero (90 % up to {high:.3g}), as if it drove the teeth: {turn}"
@@ -62,9 +62,9 @@ def mesh_friction_case(
     includes: str,
     setup: np.ndarray,
 ) -> CaseDraft | None:
-    """Friction over the roll angle, a column of what was ``found``, as a case; None where it has no surfaces.
+    """Case of mesh friction from the table ``found``, with roll angles in a named column; None without surfaces.
 
-    Readings scatter by their own errors; the errors common to several are those of their set-up.
+    Readings have their independent errors; errors common to several readings are errors of a set-up.
     """
     named = {s for one in file.recordings.values() for s in (one.pinion_surface, one.gear_surface)}
     if None in named or file.lubricant is None or not file.surfaces:

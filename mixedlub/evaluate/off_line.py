@@ -1,4 +1,4 @@
-"""Displacement of a shaft off the line of action, turned into the friction force of the mesh and its coefficient."""
+"""Friction force and friction coefficient of a mesh from the shaft displacement off the line of action."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ TURN = (
     "too, or of the response"
 )
 LEAK = 0.02
-"""Displacement off the line of action over that along it up to which the source takes coupling as negligible."""
+"""Largest ratio of displacement off and along the line of action with negligible coupling in the source."""
 
 
 class Shaft(Section):
@@ -83,7 +83,7 @@ class Filter(Section):
 
 
 class OffLineFile(SpurGearFile):
-    """Gears whose shaft moves off the line of action, and how the rig responds."""
+    """Input file of gears with a shaft that moves off the line of action, and its response."""
 
     schema_: Literal["mixedlub-off-line/1"] = key("format of the file", example="mixedlub-off-line/1", alias="schema")
     title: str = key("title of the figures", "Off-line force", example="Variable centre distance rig")
@@ -124,9 +124,9 @@ def _response(file: OffLineFile, folder: Path) -> Response:
 
 
 def coupling_of(direction: np.ndarray, force: np.ndarray, displacement: np.ndarray, source: str) -> tuple[float, float]:
-    """Displacement off the line per force along it (um/N) and its standard deviation, from both directions.
+    """Displacement off the line of action per force along it (um/N) and standard deviation, from both directions.
 
-    The mean of the two slopes is free of friction, which turns round with the direction.
+    Friction changes sign with the direction and cancels in the mean of the two slopes.
     Source: Vaishya and Houser 1999, AGMA 99FTMS1, section 8, figure 10.
 
     >>> both = np.repeat(["driving", "driven"], 3)
@@ -171,11 +171,11 @@ def _average(one: MeshRecording, teeth: int, samples: int, folder: Path) -> Aver
 
 
 SAMPLES = 512
-"""Places of a mesh cycle to which displacements are interpolated."""
+"""Interpolation points of the displacement per mesh cycle."""
 
 
 def run(file: OffLineFile, path: Path) -> Evaluated:
-    """Average mesh cycle, division by the response, and friction of every recording."""
+    """Average each recording over mesh cycles, divide by the response, and fit friction."""
     with collected() as findings:
         pair, shared = gear_pair(file.gears), sharing(file.gears.load_sharing, path.parent)
     response, static = _response(file, path.parent), _static(file, path.parent)
@@ -281,7 +281,7 @@ def _lines(recordings: pd.DataFrame) -> Iterator[str]:
 
 
 def _figures(file: OffLineFile, tables: dict[str, pd.DataFrame], static: Table | None) -> dict[str, tuple[Panel, ...]]:
-    """Displacement and force of the mesh cycle, local friction, and the static test where there is one."""
+    """Displacement and force over the mesh cycle, local friction, and the static test if given."""
     force, friction, moved = [], [], []
     for group, name in enumerate(file.recordings):
         own, local = (tables[t][tables[t]["recording"] == name] for t in ("friction_force", "friction"))
@@ -308,7 +308,7 @@ def _figures(file: OffLineFile, tables: dict[str, pd.DataFrame], static: Table |
 
 
 def _case(file: OffLineFile, path: Path, table: pd.DataFrame) -> CaseDraft | None:
-    """Local friction as a case of mesh friction."""
+    """Case of mesh friction from local friction."""
     if file.filter.local_points == 1:
         return None
     includes = "friction force off the line of action"

@@ -1,4 +1,4 @@
-"""Single samples far from those at the same place of the other turns, repeats or load stages: named, never left out."""
+"""Detection of single samples far from other turns, repeats or load stages; they are reported, never removed."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from scipy.stats import theilslopes
 from mixedlub.schema.findings import finding, report
 
 LIMIT = 10.0
-"""Judgement. Robust standard deviations (1.4826 times the median absolute deviation) from which a sample is named."""
+"""Judgement. Least deviation reported, in robust standard deviations (1.4826 median absolute deviations)."""
 TO_SIGMA = 1.4826
-"""Definition. Standard deviation over median absolute deviation of normal numbers."""
+"""Definition. Standard deviation over median absolute deviation of a normal distribution."""
 RESOLUTION = 5e-3
-"""Judgement. Least robust standard deviation over the range of the signal: below 5 % of it nothing is wild."""
+"""Judgement. Least robust standard deviation over the range of the signal: deviations below 5 % are not reported."""
 NEIGHBOURS = 3
-"""Judgement. Samples of the median about an angle between which a signal may lie."""
+"""Judgement. Adjacent angles with medians that bound a signal."""
 NAMED = 3
-"""Judgement. Samples that a message names; it counts the others."""
+"""Judgement. Samples named in a message; the others are counted."""
 NEAR = 15
-"""Judgement. Angles in a row whose samples tell the scatter there."""
+"""Judgement. Consecutive angles for an estimate of local scatter."""
 SHORTEST = 4
-"""Definition. Samples of a turn that an interpolation needs."""
+"""Definition. Fewest samples of a turn for interpolation."""
 LEAST_REPEATS = 3
-"""Definition. Fewest readings whose median stays right if one of them is wrong."""
+"""Definition. Fewest readings with a median robust against one wrong reading."""
 
 
 def report_outlying(
@@ -39,10 +39,10 @@ def report_outlying(
     *,
     beyond: np.ndarray | None = None,
 ) -> None:
-    """Report the samples whose deviation from the others is implausibly large.
+    """Report samples with an implausibly large deviation from the others.
 
-    The scale is that of all deviations (n,), nan where there is nothing to compare with, but ``floor`` at least.
-    ``beyond`` (n,) is what counts of each deviation, all of it unless given. ``place`` names a sample by its number.
+    Scale: robust standard deviation of all deviations (n,), at least ``floor``; deviations without comparison are nan.
+    ``beyond`` (n,): part of each deviation that counts, by default all. ``place``: name of a sample by index.
     """
     size = np.abs(deviation)
     if not np.isfinite(size).any():
@@ -60,7 +60,7 @@ def report_outlying(
 
 
 def _scatter_near(deviation: np.ndarray, order: np.ndarray, count: int) -> np.ndarray:
-    """Largest robust standard deviation (n,) of ``count`` samples in a row, in ``order``, that reach each sample."""
+    """Largest robust standard deviation (n,) among windows of ``count`` samples, in ``order``, around each sample."""
     scatter = np.empty(deviation.size)
     near = pd.Series(np.abs(deviation[order])).rolling(count, center=True, min_periods=1).median()
     scatter[order] = TO_SIGMA * near.rolling(count, center=True, min_periods=1).max()
@@ -68,11 +68,11 @@ def _scatter_near(deviation: np.ndarray, order: np.ndarray, count: int) -> np.nd
 
 
 def check_turns(turn: np.ndarray, angle: np.ndarray, signals: Mapping[str, np.ndarray], source: str) -> None:
-    """Report samples of signals (n,) by channel that differ from the median of all turns at the same shaft angle.
+    """Report samples (n,) of each channel that differ from the median of all turns at the same shaft angle.
 
-    What counts is the distance from the medians about the angle and their neighbours, as a signal may change at once,
-    over the scatter of the turn or near the angle, whichever is larger. Angles of one turn alone are left out, and the
-    first and last step where no two turns begin or end alike. Two turns do not tell which is wrong: both are named.
+    Deviations are from the range of the medians at neighbouring angles, since a signal may step, in units of the
+    scatter of the turn or of nearby angles, whichever is larger. Angles of a single turn are left out, and the first
+    and last step unless two turns begin or end alike. With two turns both samples are named, since either may be wrong.
     """
     order = np.lexsort((angle, turn))
     _, first = np.unique(turn[order], return_index=True)
@@ -111,9 +111,9 @@ def check_turns(turn: np.ndarray, angle: np.ndarray, signals: Mapping[str, np.nd
 
 
 def check_repeats(value: np.ndarray, sd: np.ndarray, groups: np.ndarray, run: np.ndarray, channel: str) -> None:
-    """Report readings that differ from the median of those at the same conditions, over that median.
+    """Report readings that differ from the median at the same conditions, relative to the median.
 
-    ``groups`` (n, k) are the levels of the conditions. Repeats are few: their scale is not below the stated ``sd``.
+    ``groups`` (n, k): levels of the conditions. The scale is at least the stated ``sd``, since repeats are few.
     """
     deviation = np.full(value.size, np.nan)
     for group in np.unique(groups, axis=0):
@@ -129,10 +129,9 @@ def check_repeats(value: np.ndarray, sd: np.ndarray, groups: np.ndarray, run: np
 def check_lines(
     x: np.ndarray, y: np.ndarray, series: np.ndarray, run: np.ndarray, channel: str, *, exponent: float
 ) -> None:
-    """Report the reading of each series that is farthest off the median line, over the mean of that.
+    """Report the reading of each series farthest from the median line, relative to the mean of the line.
 
-    Twice what a slope that changes with x by a power of ``exponent`` bends the line does not count; nothing bends it
-    where x is zero.
+    Allowed is twice the bend of a line with a slope that varies as x to the power ``exponent``; no bend at x = 0.
     """
     deviation, beyond = np.full(y.size, np.nan), np.zeros(y.size)
     for one in np.unique(series):

@@ -1,4 +1,4 @@
-"""Measured traction turned into a friction law by stepwise multiple regression."""
+"""Friction law from measured traction by stepwise multiple regression."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ CHOSEN = (
 )
 BOTH, FIRST, SECOND = "both signs", "first faster", "second faster"
 LEAST = 4 * PER_TERM
-"""Judgement. Readings of one sign of sliding that are worth a law of their own."""
+"""Judgement. Fewest readings of one sign of sliding for a separate law."""
 
 
 class Choice(Section):
@@ -67,7 +67,7 @@ class Choice(Section):
 
 
 class RegressionFile(RigFile):
-    """Two discs, their oil, and their measured traction."""
+    """Input file: two discs, their oil and measured traction."""
 
     schema_: Literal["mixedlub-regression/1"] = key(
         "format of the file", example="mixedlub-regression/1", alias="schema"
@@ -93,7 +93,7 @@ COLUMNS = (
 
 @dataclass(frozen=True, eq=False)
 class Law:
-    """A law, the readings that it was fitted to, and the pair of surfaces that these have."""
+    """Fitted law with the rows of its readings and their pair of surfaces."""
 
     name: str
     surfaces: str
@@ -116,7 +116,7 @@ def inputs_of(file: RegressionFile, table: Table, oil: Oil) -> dict[str, np.ndar
 
 
 def laws_of(file: RegressionFile, table: Table, values: dict[str, np.ndarray]) -> Iterator[Law]:
-    """A law of each pair of surfaces and sign of sliding that has enough readings."""
+    """Laws of each pair of surfaces and sign of sliding with enough readings."""
     names = [table[name] if name in table else np.full(len(table), "") for name in ("surface_1", "surface_2")]
     pairs = np.char.add(np.char.add(names[0].astype(str), " / "), names[1].astype(str))
     several = np.unique(pairs)
@@ -139,7 +139,7 @@ def laws_of(file: RegressionFile, table: Table, values: dict[str, np.ndarray]) -
 
 
 def run(file: RegressionFile, path: Path) -> Evaluated:
-    """The laws, their terms, residuals and files."""
+    """Fit the laws; return terms, residuals and law files."""
     source = named_file(path.parent, file.readings, "readings")
     table = read_table(source, COLUMNS)
     slides = table["slide_roll_ratio"] != 0.0
@@ -171,7 +171,7 @@ def _constant(values: dict[str, np.ndarray]) -> Iterator[str]:
 
 
 def _terms(law: Law) -> pd.DataFrame:
-    """A row a term of a law, with its 90 % interval, which would hold only had the terms been named beforehand."""
+    """Terms of a law with 90 % intervals, which hold only for terms chosen before the fit."""
     from scipy.stats import t
 
     found = law.found.terms
@@ -184,7 +184,7 @@ def _terms(law: Law) -> pd.DataFrame:
 
 
 def _readings(law: Law, table: Table) -> pd.DataFrame:
-    """A row a reading of a law, with what the law has for it and the residual."""
+    """Readings of a law with fitted value and residual."""
     rows = law.found.table
     rows.insert(0, "law", law.name)
     rows.insert(1, "run", table["run"][law.rows])
@@ -193,7 +193,7 @@ def _readings(law: Law, table: Table) -> pd.DataFrame:
 
 
 def _fit(law: Law, table: Table) -> dict[str, Any]:
-    """Errors and range of a law, and by how much the signs of sliding differ in it."""
+    """Errors and range of a law, and difference between the signs of sliding."""
     first = table["slide_roll_ratio"][law.rows] > 0.0
     row: dict[str, Any] = {"law": law.name, **law.found.fit}
     row |= {end: law.found.coefficients[end] for one in INPUTS for end in one.ends}
@@ -203,9 +203,9 @@ def _fit(law: Law, table: Table) -> dict[str, Any]:
 
 
 def _signs(law: Law, first: np.ndarray) -> dict[str, float]:
-    """By how much the logarithm is larger where the first body is faster: fitted with the terms of the law together.
+    """Difference of ln(friction) with the first body faster, fitted together with the terms of the law.
 
-    Nothing where the terms make up the sign, as sliding does of which each sign has a level of its own.
+    Empty if the terms determine the sign, for instance if each sign has a separate level of sliding.
     """
     table = law.found.table
     every = design_of({one.name: table[one.column].to_numpy() for one in INPUTS})
@@ -239,7 +239,7 @@ def _line(law: Law) -> str:
 
 
 def _figures(laws: list[Law]) -> dict[str, tuple[Panel, ...]]:
-    """Residual plots: fitted over measured, residuals over fitted and each input, and their normal probability."""
+    """Residual plots: fitted over measured, residuals over fitted and each input, and normal probability."""
     both = [law for law in laws if law.sign == BOTH]
     drawn: list[tuple[str, str, list[Curve]]] = [
         ("measured friction coefficient (-)", "fitted (-)", []),

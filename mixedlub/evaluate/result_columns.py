@@ -1,4 +1,4 @@
-"""Columns of the tables of `mixedlub evaluate`, by evaluation."""
+"""Columns of the result tables of `mixedlub evaluate`, by evaluation."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Strains in the root fillets of instrumented teeth, turned into normal force, friction force and friction."""
+"""Normal force, friction force and friction coefficient from strains in root fillets of instrumented teeth."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ class FrictionSection(Section):
 
 
 class StrainGaugeFile(SpurGearFile):
-    """Gears with strain gauges, their calibration and their recordings."""
+    """Input file of gears with strain gauges, calibration and recordings."""
 
     schema_: Literal["mixedlub-strain-gauge/1"] = key(
         "format of the file", example="mixedlub-strain-gauge/1", alias="schema"
@@ -97,13 +97,13 @@ class StrainGaugeFile(SpurGearFile):
 
 
 SMEARED_SDS = 2.0
-"""Judgement. Standard deviations of the roll angle by which the step of friction may lie beside the pitch point."""
+"""Judgement. Largest offset of the friction step from the pitch point, in standard deviations of the roll angle."""
 TURN = (
     "turn the sign of friction_force_N of the calibration (positive towards the tip), or of the recording's gauges; or "
     "name the other wheel in gauges.wheel"
 )
 LARGEST_DEVIATION = 0.1
-"""Judgement. Deviation of the normal force from torque over base radius that gear dynamics seldom explain."""
+"""Judgement. Largest deviation of normal force from torque over base radius attributable to gear dynamics."""
 CALIBRATION = (
     Column("tooth", "whole", at_least=1.0, meaning="tooth that is loaded, 1 for the one that enters the mesh first"),
     Column("roll_angle_deg", at_least=0.0, at_most=90.0, meaning="roll angle of the loaded tooth"),
@@ -122,7 +122,7 @@ def _gauge_columns(file: StrainGaugeFile) -> tuple[Column, ...]:
 
 
 def _calibrated(file: StrainGaugeFile, folder: Path) -> Influence:
-    """Influence coefficients of the calibration table."""
+    """Influence coefficients from the calibration table."""
     path = named_file(folder, file.calibration, "calibration")
     table = read_table(path, (*CALIBRATION, *_gauge_columns(file)), key=())
     teeth = file.gauges.teeth
@@ -151,7 +151,7 @@ def _average(file: StrainGaugeFile, one: MeshRecording, folder: Path) -> Average
 
 
 def meshing_of(pair: GearPair, wheel: str, teeth: int, margin: float) -> Meshing:
-    """Roll angles (deg) of the instrumented wheel at which contact begins, slides least and ends."""
+    """Roll angles (deg) of the instrumented wheel at the start of contact, pitch point and end of contact."""
     number = 0 if wheel == "pinion" else 1
     radius = pair.base_radius[number]
     ways = [pair.path_start, pair.pitch_point, pair.path_end]
@@ -162,7 +162,7 @@ def meshing_of(pair: GearPair, wheel: str, teeth: int, margin: float) -> Meshing
 
 
 def run(file: StrainGaugeFile, path: Path) -> Evaluated:
-    """Influence matrices, synchronous averages, forces and friction of every recording."""
+    """Evaluate influence matrices, synchronous averages, forces and friction of every recording."""
     with collected() as findings:
         pair = gear_pair(file.gears)
     influence = _calibrated(file, path.parent)
@@ -202,7 +202,7 @@ def run(file: StrainGaugeFile, path: Path) -> Evaluated:
 
 
 def _doubts(name: str, forces: Forces, nominal: float) -> Iterator[str]:
-    """Refuse a recording whose teeth pull, and doubt one whose normal force is not that of the torque."""
+    """Raise an error for a negative normal force; yield a note if it deviates from torque over base radius."""
     ratio = float(forces.value[forces.single, 0].mean() / nominal) if forces.single.any() else np.nan
     if ratio <= 0.0:
         rule = "normal force of single contact over that of the torque: check gauges.wheel, roll_angle_at_pulse_deg and"
@@ -214,7 +214,7 @@ def _doubts(name: str, forces: Forces, nominal: float) -> Iterator[str]:
 def _table(
     name: str, one: MeshRecording, forces: Forces, meshing: Meshing, pair: GearPair, wheel: str, wider: float
 ) -> pd.DataFrame:
-    """One row an angle and instrumented tooth in contact."""
+    """Table of shaft angles and instrumented teeth in contact."""
     way = np.radians(forces.roll_angle) * pair.base_radius[0 if wheel == "pinion" else 1]
     pinion = way if wheel == "pinion" else pair.line_of_action_length - way
     omega = one.speed_rpm * math.pi / 30.0
@@ -246,7 +246,7 @@ def _summary(
     average: Average,
     offset: list[float],
 ) -> dict[str, Any]:
-    """One row a recording: friction of single contact weighted with load and sliding, normal force against torque."""
+    """Row of a recording: friction of single contact weighted with load and sliding, normal force over torque."""
     mean, sd = mean_friction(forces, meshing)
     nominal = one.torque_Nm / pair.base_radius[0]
     found = interval("mean_friction", np.array(mean), combined(sd), noise_of(sd), few_turns(average.turns))
@@ -266,7 +266,7 @@ def _summary(
 
 
 def _influence_table(influence: Influence, meshing: Meshing) -> pd.DataFrame:
-    """Influence coefficients over the roll angle, tooth by tooth and gauge by gauge."""
+    """Influence coefficients over the roll angle, by tooth and gauge."""
     angle = np.linspace(max(influence.low, meshing.low), min(influence.high, meshing.high), 41)
     rows = []
     for tooth in range(meshing.teeth):
@@ -326,7 +326,7 @@ def _figures(file: StrainGaugeFile, tables: dict[str, pd.DataFrame]) -> dict[str
 
 
 def _case(file: StrainGaugeFile, path: Path, table: pd.DataFrame) -> CaseDraft | None:
-    """Friction of single contact as a case of mesh friction."""
+    """Case of mesh friction from single contact."""
     rows = table[table["single_contact"] & ~table["at_pitch_point"]]
     # Errors of recentring have the opposite sign on either side of the pitch point.
     side = np.where(rows["sliding_speed_m_s"] < 0.0, "before", "behind")

@@ -1,4 +1,4 @@
-"""Synchronous average of signals over the turns of a shaft."""
+"""Synchronous average of signals over turns of a shaft."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from mixedlub.evaluate.uncertainty import NORMAL_90
 from profiles.errors import InputError
 
 LEAST_SAMPLES = 4
-"""Samples of a revolution that a local cubic needs."""
+"""Fewest samples of a turn for a local cubic."""
 
 
 @dataclass(frozen=True, eq=False)
 class Average:
     """Mean signals (M, S) at angles (M,) over N turns.
 
-    ``errors`` (N, M, S) are independent errors of the mean, one a turn, as `errors_of_mean` gives them. They keep how
-    errors of neighbouring angles and of several signals go together. ``spacing`` is the angle from sample to sample,
-    over which linear interpolation blurs what happens at once. Intervals are wider by `few_turns`.
+    ``errors`` (N, M, S): independent errors of the mean, one per turn (`errors_of_mean`), which keep the correlation of
+    neighbouring angles and of signals. ``spacing``: angle between samples, the blur of steps by linear interpolation.
+    Intervals are widened by `few_turns`.
     """
 
     angle: np.ndarray
@@ -37,14 +37,14 @@ class Average:
 
     @property
     def sd(self) -> np.ndarray:
-        """Standard deviation of the mean of each signal (S,), the median over the angles."""
+        """Standard deviation of the mean of each signal (S,), as median over the angles."""
         return np.asarray(np.median(np.sqrt((self.errors**2).sum(axis=0)), axis=0))
 
 
 def few_turns(turns: int) -> float:
-    """Width of the 90 % interval of a mean whose scatter few turns tell, over that of a known scatter.
+    """Factor on the 90 % interval of a mean with a scatter estimated from few turns.
 
-    Student's t at N - 1 degrees of freedom over the normal distribution.
+    Student's t with N - 1 degrees of freedom over the normal distribution.
 
     >>> [round(few_turns(turns), 2) for turns in (2, 3, 10, 50)]
     [3.84, 1.78, 1.11, 1.02]
@@ -53,10 +53,10 @@ def few_turns(turns: int) -> float:
 
 
 def errors_of_mean(each: np.ndarray) -> np.ndarray:
-    """Independent errors of the mean over the turns, from the signals of each turn (N, ...).
+    """Independent errors of the mean over turns, from signals by turn (N, ...).
 
-    The deviation of each turn over sqrt(N (N - 1)): the root of their sum of squares is the standard deviation of the
-    mean. What comes again in every turn is no error of the mean.
+    Deviations of the turns over sqrt(N (N - 1)); the root of their sum of squares is the standard deviation of the
+    mean. Deviations repeated in every turn are no error of the mean.
     """
     turns = len(each)
     return (each - each.mean(axis=0)) / np.sqrt(turns * (turns - 1))
@@ -67,10 +67,9 @@ def synchronous_average(
 ) -> Average:
     r"""Mean over the turns, after interpolation at multiples of ``step`` (unit of ``angle``) within each turn.
 
-    N turns reduce what is not synchronous by sqrt(N) and leave what is. Interpolation is by Akima's local cubics: the
-    straight lines of the source pass a frequency f of the sampling rate f_s with a gain of sinc^2(f/f_s), which lowers
-    friction where it changes fast. Only angles that every turn covers are kept. ``signals`` is
-    (n, S).
+    N turns reduce asynchronous parts by sqrt(N) and keep synchronous parts. Interpolation by Akima's local cubics:
+    linear interpolation, as in the source, has a gain of sinc^2(f/f_s) at frequency f and sampling rate f_s, which
+    lowers rapidly changing friction. Only angles covered by every turn are kept. ``signals``: (n, S).
 
     Source: Rebbechi, Oswald and Townsend 1996, NASA TM-107279, dynamic load measurement.
 
@@ -106,10 +105,10 @@ def _spacing(turn: np.ndarray, angle: np.ndarray) -> float:
 def cycle_average(
     turn: np.ndarray, angle: np.ndarray, signal: np.ndarray, teeth: int, count: int, *, source: str
 ) -> Average:
-    """Mean of one signal over a mesh cycle, at ``count`` angles from 0; ``angle`` in degrees since the pulse of a turn.
+    """Mean of a signal over a mesh cycle at ``count`` angles from 0; ``angle`` in degrees since the pulse of a turn.
 
-    The mean is over whole turns and their teeth; the errors are those of the turns, as noise of neighbouring teeth may
-    go together. Run-out cancels in the mean over the teeth of a turn.
+    The mean is over whole turns and all teeth, so that run-out cancels. Errors are by turn, since noise of neighbouring
+    teeth may be correlated.
     """
     along = 360.0 * (turn - turn.min()) + angle
     order = np.argsort(along, kind="stable")

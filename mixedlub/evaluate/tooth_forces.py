@@ -13,18 +13,18 @@ from mixedlub.evaluate.uncertainty import combined
 from profiles.errors import InputError
 
 NOISE = "noise of turn"
-"""Begins the name of what a turn's deviation from the mean adds."""
+"""Prefix of the error names of turns: effect of a turn's deviation from the mean."""
 ROLL_ANGLE = "roll angle"
 """Name of the error of the roll angle at the pulse."""
 
 
 @dataclass(frozen=True)
 class Meshing:
-    """Roll angles (deg) of a wheel: its contact from ``low`` to ``high``, the pitch point and the pitch of its teeth.
+    """Roll angles (deg) of a wheel: contact from ``low`` to ``high``, pitch point and tooth pitch.
 
-    ``teeth`` are instrumented; ``direction`` is 1 where the contact moves to larger roll angles, as on the driving
-    wheel. Teeth may touch up to ``margin`` beyond the path. Within ``smeared`` of the pitch point friction of both
-    directions of sliding is mixed, as samples are apart and the roll angle is uncertain.
+    ``teeth``: instrumented teeth; ``direction``: 1 if contact moves to larger roll angles, as on the driving wheel.
+    Teeth may touch up to ``margin`` beyond the path. Within ``smeared`` of the pitch point both directions of friction
+    mix, because of the sample spacing and the uncertain roll angle.
     """
 
     low: float
@@ -37,12 +37,12 @@ class Meshing:
     smeared: float = 0.0
 
     def roll_angle(self, first: np.ndarray, tooth: int) -> np.ndarray:
-        """Roll angle of a tooth (from 0) where the first instrumented one has ``first``; the nearest turn is taken."""
+        """Roll angle of a tooth (from 0) nearest the pitch point; ``first``: of the first instrumented tooth."""
         angle = first - self.direction * tooth * self.pitch
         return angle - 360.0 * np.round((angle - self.pitch_point) / 360.0)
 
     def is_smeared(self, roll_angle: np.ndarray) -> np.ndarray:
-        """Whether a roll angle is so near the pitch point that friction of both directions is mixed."""
+        """Whether friction of both directions mixes at a roll angle near the pitch point."""
         return np.abs(roll_angle - self.pitch_point) < self.smeared
 
     def touches(self, roll_angle: np.ndarray) -> np.ndarray:
@@ -64,8 +64,8 @@ class Meters:
 class Forces:
     """Forces of N tooth positions: ``value`` (N, 2), normal and friction (N), the latter positive towards the tip.
 
-    ``errors`` (N, 2) is what one standard deviation of each independent error adds; those of the recording are named
-    NOISE and a number. ``sense`` is 1 where friction against the sliding points to the tip, else -1.
+    ``errors`` (N, 2): effect of one standard deviation of each independent error; errors of the recording are named
+    NOISE and a number. ``sense``: 1 if friction against the sliding points to the tip, else -1.
     """
 
     tooth: np.ndarray
@@ -81,17 +81,17 @@ class Forces:
         return combined({name: moved[:, which] for name, moved in self.errors.items()})
 
     def sd_own(self, which: int) -> np.ndarray:
-        """Its part by the noise of the recording, which the turns tell."""
+        """Part of the standard deviation by noise of the recording, estimated from the turns."""
         return noise_of({name: moved[:, which] for name, moved in self.errors.items()})
 
 
 def forces_of(
     influence: Influence, meshing: Meshing, first: np.ndarray, average: Average, meters: Meters, name: str
 ) -> Forces:
-    """Forces at the shaft angles where no other tooth than instrumented ones may touch.
+    """Forces at shaft angles with contact on instrumented teeth only.
 
-    ``first`` (M,) is the roll angle of the first instrumented tooth. All gauges are used, by least squares weighted
-    with their noise. Source: Rebbechi, Oswald and Townsend 1996, NASA TM-107279, equation 6.
+    ``first`` (M,): roll angle of the first instrumented tooth. Least squares over all gauges, weighted with their
+    noise. Source: Rebbechi, Oswald and Townsend 1996, NASA TM-107279, equation 6.
     """
     around = range(-2, meshing.teeth + 2)
     roll = np.stack([meshing.roll_angle(first, tooth) for tooth in around], axis=1)
@@ -132,7 +132,7 @@ def _solved(
     meters: Meters,
     name: str,
 ) -> Forces:
-    """Forces of the teeth that touch together, at roll angles (M, K)."""
+    """Forces of simultaneously touching teeth at roll angles (M, K)."""
     matrix = np.concatenate([influence.at(roll[:, t], t) for t in teeth], axis=2)
     condition = np.linalg.cond(matrix)
     worst = int(np.argmax(condition))
@@ -169,7 +169,7 @@ def _solved(
 def _influence_errors(
     influence: Influence, every: int, teeth: np.ndarray, roll: np.ndarray, inverse: np.ndarray, forces: np.ndarray
 ) -> dict[str, np.ndarray]:
-    """What errors of influence coefficients add to the forces (M, 2 K): nothing where their tooth does not touch."""
+    """Effect of errors of influence coefficients on the forces (M, 2 K); zero for teeth out of contact."""
     found = {}
     for tooth in range(every):
         where = np.flatnonzero(teeth == tooth)
@@ -199,10 +199,10 @@ def _taken(forces: Forces, rows: np.ndarray) -> Forces:
 
 
 def recentred(forces: Forces, meshing: Meshing, asymmetry: float, name: str) -> tuple[Forces, list[float]]:
-    """Forces whose friction has a mean of zero over equal ways before and after the pitch point, tooth by tooth.
+    """Forces with zero mean friction of each tooth over equal distances before and after the pitch point.
 
-    The mean is over single contact; what was taken off is returned. What friction really differs between approach and
-    recess is taken off too: ``asymmetry`` is the standard deviation of half that difference, as a coefficient.
+    The mean is over single contact; the offsets removed are returned. A true difference of friction between approach
+    and recess is removed too: ``asymmetry`` is the standard deviation of half that difference, as a coefficient.
     """
     value, errors = forces.value.copy(), {label: moved.copy() for label, moved in forces.errors.items()}
     offsets = []
@@ -224,9 +224,9 @@ def recentred(forces: Forces, meshing: Meshing, asymmetry: float, name: str) -> 
 
 
 def centring_weights(angle: np.ndarray, centre: float) -> np.ndarray | None:
-    """Weights of values at ascending angles whose sum is their mean over the widest interval with this centre.
+    """Weights of values at ascending angles: the weighted sum is the mean over the widest interval around ``centre``.
 
-    Values between the angles are interpolated linearly. None where the angles do not surround the centre.
+    Linear interpolation between the angles. None unless the angles surround the centre.
 
     >>> centring_weights(np.array([-1.0, 0.5, 1.0]), 0.0).round(3) @ np.array([-1.0, 0.5, 1.0])   # an odd function
     np.float64(0.0)
@@ -239,7 +239,7 @@ def centring_weights(angle: np.ndarray, centre: float) -> np.ndarray | None:
 
 
 def friction_of(forces: Forces) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """Friction coefficient, positive against the sliding, and what each error adds to it."""
+    """Friction coefficient, positive against the sliding, and effect of each error on it."""
     normal, friction = forces.value.T
     value = forces.sense * friction / normal
     to_forces = np.stack([-value / normal, forces.sense / normal], axis=1)
@@ -247,9 +247,9 @@ def friction_of(forces: Forces) -> tuple[np.ndarray, dict[str, np.ndarray]]:
 
 
 def mean_friction(forces: Forces, meshing: Meshing) -> tuple[float, dict[str, np.ndarray]]:
-    """Friction of single contact weighted with load and sliding, lost over transmitted work, and its errors.
+    """Mean friction of single contact (lost over transmitted work), weighted with load and sliding, and its errors.
 
-    The step at the pitch point is left out: there the average over turns mixes both directions of friction.
+    The step at the pitch point is left out, since the average over turns mixes both directions of friction there.
     """
     used = forces.single & ~meshing.is_smeared(forces.roll_angle)
     slide = np.where(used, np.abs(forces.roll_angle - meshing.pitch_point), 0.0)
@@ -263,5 +263,5 @@ def mean_friction(forces: Forces, meshing: Meshing) -> tuple[float, dict[str, np
 
 
 def noise_of(errors: Mapping[str, np.ndarray]) -> np.ndarray:
-    """Standard deviation by the noise of the recording alone."""
+    """Standard deviation by noise of the recording alone."""
     return combined({label: moved for label, moved in errors.items() if label.startswith(NOISE)})

@@ -1,4 +1,4 @@
-"""Torque between two discs, turned into traction over load, speed, slide-to-roll ratio and temperature."""
+"""Traction over load, speed, slide-to-roll ratio and temperature from the torque between two discs."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Meters(Section):
 
 
 class TwoDiscFile(RigFile):
-    """Two discs, their oil and surfaces, and the meters of the rig."""
+    """Input file: two discs, oil, surfaces and meters of the rig."""
 
     schema_: Literal["mixedlub-two-disc/1"] = key("format of the file", example="mixedlub-two-disc/1", alias="schema")
     title: str = key("title of the figures", "Two discs", example="Two crowned discs")
@@ -82,15 +82,15 @@ COLUMNS = (
 TEMPERATURE = "oil_temperature_C"
 SURFACES = ("surface_1", "surface_2")
 CONDITIONS = ("load_N", "entrainment_speed_m_s", "slide_roll_ratio", TEMPERATURE)
-"""What a sweep varies, one at a time."""
+"""Conditions of a sweep, varied one at a time."""
 LEAST_SWEPT = 3
-"""Levels of a condition that make a sweep."""
+"""Fewest levels of a condition in a sweep."""
 SAME_RATIO = 0.02
-"""Relative difference up to which two slide-to-roll ratios of opposite sign are a pair."""
+"""Largest relative difference between slide-to-roll ratios of opposite sign in a pair."""
 
 
 def motion(table: Table, radii_mm: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
-    """Entrainment speed (m/s) and slide-to-roll ratio, sliding over the mean speed."""
+    """Entrainment speed (m/s) and slide-to-roll ratio, sliding over mean speed."""
     if not np.all(np.isfinite(radii_mm)):
         raise InputError("both discs need a finite radius", where="contact.radius_mm", value=radii_mm)
     first, second = (table[f"speed_{n}_rpm"] * np.pi / 30.0 * r * 1e-3 for n, r in zip((1, 2), radii_mm, strict=True))
@@ -104,7 +104,7 @@ def motion(table: Table, radii_mm: tuple[float, float]) -> tuple[np.ndarray, np.
 
 
 def drag_weights(levels: np.ndarray, ratio: np.ndarray, table: Table, *, wanted: bool) -> np.ndarray:
-    """Weights (n, n) from torques to those of sliding; with ``wanted``, less the mean of pairs of opposite sign."""
+    """Weights (n, n) from measured to sliding torque; if ``wanted``, minus the mean of pairs of opposite sliding."""
     weights = np.eye(ratio.size)
     if not wanted:
         return weights
@@ -121,7 +121,7 @@ def drag_weights(levels: np.ndarray, ratio: np.ndarray, table: Table, *, wanted:
 
 
 def traction(file: TwoDiscFile, table: Table, levels: np.ndarray, ratio: np.ndarray) -> tuple[np.ndarray, Errors]:
-    """Friction coefficient against the sliding and its errors, from torque over radius and load."""
+    """Friction coefficient against the sliding, torque over radius and load, and its errors."""
     meters = file.meters
     radius = file.contact.radius_mm[0 if meters.torque_disc == "first" else 1] * 1e-3
     samples = table["samples"] if "samples" in table else np.ones(len(table))
@@ -141,7 +141,7 @@ def traction(file: TwoDiscFile, table: Table, levels: np.ndarray, ratio: np.ndar
 
 
 def hertz(contact: Contact, load: np.ndarray) -> dict[str, np.ndarray]:
-    """Largest pressure and half width along the motion of each load."""
+    """Largest Hertz pressure and half width along the motion at each load."""
     first, second = contact.youngs_modulus_GPa
     modulus = np.array(reduced_modulus((first * 1e9, second * 1e9), contact.poisson_ratio))
     radius = np.array(reduced_radius(contact.radius_mm, "radius_mm"))
@@ -159,12 +159,12 @@ def hertz(contact: Contact, load: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def of_pairs(file: TwoDiscFile, ratio: np.ndarray) -> np.ndarray:
-    """Which readings are independent: of two with opposite sliding that were taken together, the positive one."""
+    """Mask of independent readings: of two readings paired by opposite sliding, the positive reading."""
     return ratio > 0.0 if file.meters.drag == "both_signs" else np.ones(ratio.size, dtype=bool)
 
 
 def sweeps(table: pd.DataFrame, levels: np.ndarray, independent: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
-    """Condition and rows of each sweep: independent readings that differ in that condition alone."""
+    """Condition and rows of each sweep: independent readings that differ in this condition only."""
     value = table["friction_coefficient"].to_numpy()
     for number, name in enumerate(CONDITIONS):
         others = np.delete(levels, number, axis=1)
@@ -179,8 +179,8 @@ def sweeps(table: pd.DataFrame, levels: np.ndarray, independent: np.ndarray) -> 
 def sweep_table(table: pd.DataFrame, found: list[tuple[str, np.ndarray]], errors: Errors) -> pd.DataFrame:
     """Exponent of friction over the swept condition, by weighted least squares.
 
-    The exponent is d ln mu / d ln x; of the temperature it is the change of ln mu per kelvin. Errors common to all
-    readings of a rig cancel but for those of its zeros.
+    The exponent is d ln mu / d ln x; for temperature, the change of ln mu per kelvin. Errors common to all readings
+    cancel, except errors of zeros.
     """
     value = table["friction_coefficient"].to_numpy()
     rows = []
@@ -202,7 +202,7 @@ def sweep_table(table: pd.DataFrame, found: list[tuple[str, np.ndarray]], errors
 
 
 def run(file: TwoDiscFile, path: Path) -> Evaluated:
-    """Traction of every reading, with contact pressure, and what each sweep says."""
+    """Evaluate traction and contact pressure of every reading, and the exponent of each sweep."""
     table = read_table(named_file(path.parent, file.readings, "readings"), COLUMNS)
     speed, ratio = motion(table, file.contact.radius_mm)
     surfaces = [name for name in SURFACES if name in table]
@@ -271,7 +271,7 @@ def _figures(
 
 
 def _case(file: TwoDiscFile, path: Path, table: Table, frame: pd.DataFrame, errors: Errors) -> CaseDraft | None:
-    """The readings as a case of two discs."""
+    """Case of two discs from the readings."""
     if file.lubricant is None or not file.surfaces or any(name not in table for name in SURFACES):
         return None
     for name in SURFACES:

@@ -1,4 +1,4 @@
-"""Uncertainty of what is linear in readings: independent errors, and errors common to them."""
+"""Uncertainty of linear combinations of readings, with independent and common errors."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ NORMAL_90 = 1.6448536269514722
 
 @dataclass(frozen=True, eq=False)
 class Errors:
-    """Errors of n readings: sd of the independent ones (n,), and by source how far one sd of it moves each reading."""
+    """Errors of n readings: independent sd (n,), and effect of one sd of each common source on each reading."""
 
     independent: np.ndarray
     common: Mapping[str, np.ndarray] = field(default_factory=dict)
 
     def budget(self, weights: np.ndarray) -> dict[str, np.ndarray]:
-        """Standard deviation that each source contributes to ``weights @ readings``, rows of ``weights`` one by one.
+        """Standard deviation of ``weights @ readings`` by source of error, for each row of ``weights``.
 
         >>> three = Errors(np.full(4, 0.2), {"offset": np.full(4, 0.3)})
         >>> print({name: round(float(sd), 3) for name, sd in three.budget(np.full(4, 0.25)).items()})
@@ -45,10 +45,9 @@ def combined(budget: Mapping[str, np.ndarray]) -> np.ndarray:
 def interval(
     name: str, value: np.ndarray, sd: np.ndarray, own: np.ndarray | float = 0.0, wider: float = 1.0
 ) -> dict[str, np.ndarray]:
-    """Columns of a value with its standard deviation and 90 % interval.
+    """Columns of a value with standard deviation and 90 % interval.
 
-    ``own`` is the part of ``sd`` that few readings tell: the interval has it ``wider`` times as large, the standard
-    deviation as it is.
+    ``own``: part of ``sd`` estimated from few readings, widened by ``wider`` in the interval only.
 
     >>> found = interval("mean_friction", np.array([0.04]), np.array([0.002]), own=np.array([0.002]), wider=2.0)
     >>> print({name: round(float(one[0]), 4) for name, one in found.items()})

@@ -1,4 +1,4 @@
-"""Instrument files into case folders."""
+"""Import of instrument files as case folders."""
 
 from mixedlub.importers.case_writer import write_case
 from mixedlub.importers.wizard import import_files

@@ -1,6 +1,6 @@
-"""Keys of the answers to an import, and examples where no likely answer is known."""
+"""Keys of the answers to an import, and placeholders for unknown answers."""
 
 COLUMNS, UNIT_KEYS, VALUES = "import.columns.", "import.units.", "import.values."
-"""Prefixes of a column in the answers that name its header, its unit, and the one value of all its rows."""
+"""Prefixes of the answers on a column: its header, its unit, and one value for all rows."""
 UNKNOWN_HEADER, UNKNOWN_UNIT = '"HEADER"', '"UNIT"'
-"""Examples where no likely answer is known."""
+"""Placeholders for an answer without a likely value."""

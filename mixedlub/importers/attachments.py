@@ -1,4 +1,4 @@
-"""Files that a case needs besides its tables: surface traces, a table of load shares."""
+"""Files of a case besides its tables: surface traces and a table of load shares."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SHARE = "gears.load_sharing"
 
 @dataclass(frozen=True)
 class NamedFile:
-    """A file that an answer names: path of keys, name as given, folder in the case for a file from elsewhere."""
+    """File named in an answer: path of keys, name as given, case folder for a file from elsewhere."""
 
     keys: tuple[str | int, ...]
     name: str
@@ -39,7 +39,7 @@ def is_share(text: str) -> bool:
 
 
 def with_share(answers: Mapping[str, Any], tables: Sequence[Path]) -> dict[str, Any]:
-    """The answers, with the table of load shares that was given together with the recording."""
+    """Answers completed by a table of load shares given with the recording."""
     if not tables:
         return dict(answers)
     if len(tables) > 1:
@@ -56,9 +56,9 @@ def with_share(answers: Mapping[str, Any], tables: Sequence[Path]) -> dict[str, 
 
 
 def with_attachments(answers: Mapping[str, Any], folders: Sequence[Path]) -> tuple[dict[str, Any], dict[str, bytes]]:
-    """The answers as tables, with file names relative to the case, and the files by those names.
+    """Answers as tables with file names relative to the case, and contents of the files by these names.
 
-    A file is searched in each folder in turn; a file outside the case is copied into it.
+    Each folder is searched in turn; a file outside the case is copied into it.
     """
     system = deepcopy(nested(answers))
     files: dict[str, bytes] = {}

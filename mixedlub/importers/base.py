@@ -1,4 +1,4 @@
-"""Drafts of a case, the questions they leave open, and checks of the answers."""
+"""Drafts of a case, their open questions, and checks of the answers."""
 
 from __future__ import annotations
 
@@ -20,24 +20,24 @@ from mixedlub.schema.toml_file import toml_value
 from profiles.errors import InputError, nearest
 
 Answers = Mapping[str, Any]
-"""Answers by dotted key: keys of system.toml, and keys that begin with ``import.`` for the importer itself."""
+"""Answers by dotted key: keys of system.toml, and keys with prefix ``import.`` for the importer."""
 
 
 SHEET = "import.sheet"
-"""The sheet of a workbook that is read."""
+"""Sheet of a workbook to read."""
 HIDDEN_ROWS = "import.hidden_rows"
-"""Whether hidden rows of a workbook are read: "take" or "leave"."""
+"""Choice to "take" or "leave" hidden rows of a workbook."""
 PART = re.compile(r'"[^"]*"|[^.]+')
-"""A part of a dotted key; a name that contains a point is quoted."""
+"""Part of a dotted key; a name with a point is quoted."""
 
 
 @dataclass(frozen=True)
 class Question:
-    """A fact that the files lack: its key, the wording of the question, an example in TOML.
+    """Fact missing in the files: key, text of the question, example in TOML.
 
-    ``options`` are the possible answers, ``options_intro`` introduces them. ``placeholder`` replaces an example that is
-    unlikely to be right in lines to copy. An ``offered`` example is likely enough for an empty reply to take it.
-    ``meaning`` says more on request. ``one_value`` is the key that answers instead where all rows have the same value.
+    ``options``: possible answers, introduced by ``options_intro``. ``placeholder``: replaces an unlikely example in
+    lines to copy. ``offered``: an empty reply takes the example. ``meaning``: explanation on request. ``one_value``:
+    key of the answer for all rows at once.
     """
 
     key: str
@@ -53,12 +53,12 @@ class Question:
 
     @property
     def choices(self) -> str:
-        """The possible answers, in words."""
+        """Possible answers, in words."""
         return f"{self.options_intro} {', '.join(self.options)}" if self.options else ""
 
 
 class Unanswered(InputError):
-    """Missing answers: one question a line, with the setting that answers it."""
+    """Error on missing answers: one question per line, with the setting for its answer."""
 
     def __init__(self, questions: Sequence[Question]) -> None:
         self.lines = tuple(listed(questions))
@@ -68,7 +68,7 @@ class Unanswered(InputError):
 
 
 def listed(questions: Sequence[Question]) -> Iterator[str]:
-    """A line for each question, with the setting that answers it; equal choices are listed once.
+    """Lines with a question and the setting for its answer; equal choices are listed once.
 
     >>> print(*listed([Question("kind", "Kind of recording", '"film"', options=("film", "disc"))]), sep="\\n")
       --set 'kind="film"'  (Kind of recording: one of film, disc)
@@ -84,7 +84,7 @@ def listed(questions: Sequence[Question]) -> Iterator[str]:
 
 @dataclass(frozen=True)
 class Draft:
-    """A case before it is written: columns in the units of a case, facts for system.toml, open questions."""
+    """Case before it is written: columns in case units, facts for system.toml, open questions."""
 
     kind: str | None
     quantity: str | None
@@ -93,7 +93,7 @@ class Draft:
     questions: tuple[Question, ...] = ()
     notes: tuple[Finding, ...] = ()
     runs: np.ndarray | None = None
-    """Run numbers, where the file has them and none is repeated."""
+    """Run numbers, if the file has them without repetition."""
 
 
 def _question(section: str, key: str, needed: bool) -> Question:
@@ -120,7 +120,7 @@ NOISE = tuple(_question("recording.noise", key, False) for key in ("relative", "
 
 
 def questions_of(kind: str) -> tuple[Question, ...]:
-    """The questions that every case of a kind leaves open."""
+    """Questions open in every case of a kind."""
     contact = CONTACT if "contact" in kind_of(kind).sections else ()
     oil = OIL if kind_of(kind).asks_for_oil else ()
     many = (EVERY,) if kind_of(kind).is_logged else ()
@@ -128,7 +128,7 @@ def questions_of(kind: str) -> tuple[Question, ...]:
 
 
 def contact_form(kind: str, answers: Answers) -> tuple[Question, ...]:
-    """Questions for form and width of the contact, where a kind has one and no answer gives them."""
+    """Questions on form and width of the contact, if the kind has a contact and the answers lack them."""
     given = "contact.width_mm" in answers or answers.get("contact.geometry") == "point"
     if given or "contact" not in kind_of(kind).sections:
         return ()
@@ -136,17 +136,17 @@ def contact_form(kind: str, answers: Answers) -> tuple[Question, ...]:
 
 
 def read_note(text: str, name: str = "") -> Finding:
-    """A note on how an importer read a file."""
+    """Note on the reading of a file."""
     return finding("file_read", text, name)
 
 
 def open_questions(draft: Draft, answers: Answers) -> tuple[Question, ...]:
-    """The required questions without an answer."""
+    """Required questions without an answer."""
     return tuple(q for q in draft.questions if q.needed and q.key not in answers)
 
 
 def refuse_unknown(answers: Answers, known: Sequence[str]) -> None:
-    """An error about the first ``import.`` key that has no meaning for the file.
+    """Raise an error for the first ``import.`` key without meaning for the file.
 
     >>> refuse_unknown({"import.evry": 10, "kind": "film"}, [])
     Traceback (most recent call last):
@@ -160,7 +160,7 @@ def refuse_unknown(answers: Answers, known: Sequence[str]) -> None:
 
 
 def answered_kind(answers: Answers, possible: Collection[str]) -> str | None:
-    """The kind that the answers name; an error where the file's reader makes no such case.
+    """Kind named in the answers; raise an error if the file's reader does not support it.
 
     >>> answered_kind({"kind": "disc"}, ["viscosity"])
     Traceback (most recent call last):
@@ -196,7 +196,7 @@ def nested(answers: Answers) -> dict[str, Any]:
 
 
 def flat(tree: Mapping[str, Any], above: str = "") -> dict[str, Any]:
-    """Tables as dotted keys; those of the first level may be dotted already.
+    """Tables as dotted keys; keys of the first level may be dotted already.
 
     >>> flat({"contact": {"radius_mm": [9.5, 20.0]}, "kind": "film"})
     {'contact.radius_mm': [9.5, 20.0], 'kind': 'film'}
@@ -210,11 +210,11 @@ def flat(tree: Mapping[str, Any], above: str = "") -> dict[str, Any]:
 
 
 BARE = re.compile(r"[-+.\deinf]+(\s*,\s*[-+.\deinf]+)+")
-"""Numbers with commas between, as a list is typed without its brackets."""
+"""Comma-separated numbers, as in a list typed without brackets."""
 
 
 def is_list(example: str, reply: str) -> bool:
-    """Whether a reply is a list without its brackets, where a list is expected.
+    """Whether a reply is a list without brackets and a list is expected.
 
     >>> is_list("[206.0, 206.0]", "206, 75"), is_list("[206.0, 206.0]", "[206, 75]"), is_list("0.1", "0,2")
     (True, False, False)
@@ -223,7 +223,7 @@ def is_list(example: str, reply: str) -> bool:
 
 
 def refuse_wrong(key: str, value: Any) -> None:
-    """An error about an answer that is invalid in system.toml, whatever the other answers are.
+    """Raise an error for an answer invalid in system.toml regardless of the other answers.
 
     >>> refuse_wrong("contact.radius_mm", [9.5])
     Traceback (most recent call last):

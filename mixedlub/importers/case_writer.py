@@ -1,4 +1,4 @@
-"""Case folders written at once: `system.toml`, `recordings.csv` and attached files."""
+"""Atomic writing of case folders: `system.toml`, `recordings.csv` and attached files."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ def write_case(
     attachments: Mapping[str, bytes] | None = None,
     check: Callable[[Path], None] | None = None,
 ) -> Path:
-    """Write the files of a case folder, all or none; other files in it are kept, a folder that is no case is refused.
+    """Write all files of a case folder or none; keep its other files. A folder without a case is an error.
 
-    ``columns`` are those of the recording; a missing ``run`` is numbered from 1. ``comments`` are lines below the
-    tables of system.toml, ``attachments`` further files by their path in the case. ``check`` is called with the folder
-    before its files appear. Without ``overwrite`` an existing file with other content is an error.
+    ``columns``: recording; a missing ``run`` is numbered from 1. ``comments``: lines below the tables of system.toml.
+    ``attachments``: further files by path in the case. ``check``: called with the folder before its files appear.
+    Without ``overwrite``, an existing file with other content is an error.
     """
     if not out.is_dir() and out.exists():
         raise InputError("exists and is no case folder; name another --out", where=str(out))
@@ -68,7 +68,7 @@ def write_case(
 
 
 def _fill(aside: Path, out: Path, files: Mapping[str, bytes]) -> None:
-    """The files, and the other files of their subfolders, because a folder is replaced as a whole."""
+    """Write the files, and copy the other files of their subfolders, since folders are replaced as a whole."""
     for folder in {Path(name).parts[0] for name in files if len(Path(name).parts) > 1}:
         if (out / folder).is_dir():
             shutil.copytree(out / folder, aside / folder)
@@ -78,7 +78,7 @@ def _fill(aside: Path, out: Path, files: Mapping[str, bytes]) -> None:
 
 
 def _drop_empty(created: Sequence[Path]) -> None:
-    """Remove folders that were created for a case that was not written."""
+    """Remove empty folders created for a case not written."""
     for folder in created:
         if folder.is_dir() and not any(folder.iterdir()):
             folder.rmdir()
@@ -106,7 +106,7 @@ def _recordings(out: Path, columns: Mapping[str, Sequence[Any] | np.ndarray]) ->
 
 
 def cell(value: Any) -> Any:
-    """A value as a cell of a table: a number in the fewest digits that read back equal, empty for nan.
+    """Table cell of a value: a number in the fewest digits that read back equal, empty for nan.
 
     >>> cell(1619110000.1), cell(40.0), cell(0.1 + 0.2), cell(float("nan")), cell("ground")
     ('1619110000.1', '40', '0.30000000000000004', '', 'ground')
@@ -118,7 +118,7 @@ def cell(value: Any) -> Any:
 
 
 def findings_toml(found: Iterable[Finding]) -> str:
-    """Findings of an import as `import.toml` holds them.
+    """Findings of an import in the format of `import.toml`.
 
     >>> from mixedlub.schema.findings import finding
     >>> print(findings_toml([finding("file_incomplete", "line 7 breaks off", "rig.txt")]), end="")

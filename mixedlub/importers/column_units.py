@@ -1,4 +1,4 @@
-"""Units of the columns that are taken: by answer, by header, by the name of the column; else a question."""
+"""Units of imported columns: from an answer, the header or the column name, or else by a question."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ from mixedlub.schema.units import change_to, open_units, split, tidy, units_of, 
 from profiles.errors import InputError
 
 OF_READINGS = ("mean", "average", "avg", "median", "value", "measured", "nominal", "actual", "set")
-"""Last words of a header that are no unit."""
+"""Last words of a header that are not a unit."""
 FORCE = re.compile(r"force|kraft|kräfte")
-"""Words of a friction that is a force."""
+"""Words of a friction force."""
 COUNTS = ("fringe_order",)
 """Columns without a unit."""
 
 
 def target_for(column: str) -> Target | None:
-    """Unit and words of a column; the standard deviation of a reading has the unit of the reading."""
+    """Unit and words of a column; a standard deviation has the unit of its reading."""
     reading = column.removesuffix("_sd")
     target = BY_NAME.get(reading)
     return target if target is None or reading == column else replace(target, name=column, spoken=())
 
 
 def has_header(header: str, column: str) -> bool:
-    """Whether a header is the name of a column, with blanks or hyphens for its underscores.
+    """Whether a header is the name of a column, apart from capitals and blanks or hyphens for underscores.
 
     >>> has_header("Pinion surface", "pinion_surface"), has_header("pinion", "pinion_surface")
     (True, False)
@@ -39,12 +39,12 @@ def has_header(header: str, column: str) -> bool:
 
 
 def is_named(header: str, column: str) -> bool:
-    """Whether a header is the column's own name; with a unit, capitals distinguish milli from mega."""
+    """Whether a header is the exact name of a column; capitals are ignored without a unit (milli and mega)."""
     return header == column or (target_for(column) is None and has_header(header, column))
 
 
 def refuse_idle_units(columns: Set[str], answers: Answers) -> None:
-    """An error about a unit that its column cannot have, or whose column is not taken."""
+    """Raise an error for a unit that does not fit its column or belongs to no imported column."""
     for key, unit in answers.items():
         column = key.removeprefix(UNIT_KEYS)
         target = target_for(column)
@@ -58,7 +58,7 @@ def refuse_idle_units(columns: Set[str], answers: Answers) -> None:
 
 
 def taken_units(headers: Mapping[str, str], answers: Answers) -> tuple[dict[str, str], list[Question], list[str]]:
-    """Units by column, by answer or by header; a question where both lack it."""
+    """Units by column, from answer or header; a question if both are missing."""
     units: dict[str, str] = {}
     questions: list[Question] = []
     notes: list[str] = []
@@ -89,7 +89,7 @@ def header_unit_of(column: str, header: str) -> str | None:
 
 
 def unit_question(column: str, header: str, target: Target) -> Question:
-    """An example unit is given where the last word of the header is no unit; it may be an unknown one."""
+    """Question on a unit, with an example if the last word of the header is not a unit; it may be an unknown unit."""
     text = f"Unit of the column {header!r}, taken as {column}"
     candidates = open_units(split(header)[1] or "", target.unit)
     if candidates:

@@ -1,4 +1,4 @@
-"""Decimal marks: comma or point, as the numbers of a file prove it."""
+"""Decimal marks, comma or point, from the numbers of a file."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from collections.abc import Callable, Iterator, Sequence, Set
 from profiles.errors import InputError
 
 Line = tuple[int, list[str]]
-"""Number of a line in the file, and its cells."""
+"""Line number in the file, and cells."""
 Place = tuple[int, str]
-"""Number of a line in the file, and one of its cells."""
+"""Line number in the file, and a cell."""
 DECIMAL = "import.decimal"
 MARKS = (",", ".")
 OTHER = {",": ".", ".": ","}
@@ -24,13 +24,13 @@ NUMBER = re.compile(
     "|".join(form.pattern for forms in (GROUPED, WITH_BOTH, WITH_ONE) for form in forms.values()) + f"|{PLAIN.pattern}"
 )
 SPACED = re.compile(r"[+-]?[1-9]\d{0,2}(?:[ \u00a0\u2009\u202f'\u2019]\d{3})+(?:[.,]\d*)?")
-"""A number whose thousands a blank or an apostrophe separates."""
+"""Number with a blank or an apostrophe as thousands separator."""
 GAP = re.compile(r"[ \u00a0\u2009\u202f'\u2019]")
 DIGITS = str.maketrans("23456789", "11111111")
 
 
 def proves(cell: str) -> str | None:
-    """The decimal mark of a number; None where it is absent or could be a thousands separator.
+    """Decimal mark of a number; None if it is absent or could be a thousands separator.
 
     >>> [proves(cell) for cell in ("17,50", "0.125", "1.234,5", "1,234,567", "0,125")]
     [',', '.', ',', '.', ',']
@@ -49,8 +49,8 @@ def proves(cell: str) -> str | None:
 def with_points(rows: Sequence[Line], name: str, given: str | None = None) -> tuple[list[Line], list[str]]:
     """Rows with decimal points and without thousands separators, and notes on ambiguous numbers.
 
-    ``given`` is the decimal mark that an answer names. The numeric columns of the most common row length decide
-    first, because lines around a table may come from another program.
+    ``given``: decimal mark from an answer. The numeric columns of the most common row length decide first, since lines
+    around a table may come from another program.
     """
     width = common_length([row for _, row in rows])
     table = [line for line in rows if len(line[1]) == width]
@@ -90,34 +90,34 @@ def with_points(rows: Sequence[Line], name: str, given: str | None = None) -> tu
 
 
 def forms_of(cells: Sequence[str]) -> list[str]:
-    """Cells with every digit but zero replaced by 1: a long column has few forms, each read as its cells are."""
+    """Cells with 1 in place of every nonzero digit, so that a long column has few distinct forms to read."""
     return "\n".join(cells).translate(DIGITS).split("\n")
 
 
 def common_length(rows: Sequence[Sequence[str]]) -> int:
-    """The most common number of cells; of several equally common ones the first."""
+    """Most common number of cells; the first of equally common numbers."""
     return max(Counter(map(len, rows)).items(), key=lambda item: item[1], default=(0, 0))[0]
 
 
 def _holds_numbers(forms: Sequence[str]) -> bool:
-    """Whether a column is one of numbers: most of its cells, apart from the header and gaps; labels prove no mark."""
+    """Whether most cells of a column, besides header and gaps, are numbers; labels prove no decimal mark."""
     counts = Counter(forms)
     written = sum(number for form, number in counts.items() if is_written_number(form))
     return 2 * written >= sum(number for form, number in counts.items() if form) - 1
 
 
 def is_written_number(cell: str) -> bool:
-    """Whether a cell is a number under one mark or the other."""
+    """Whether a cell is a number with either decimal mark."""
     return NUMBER.fullmatch(cell) is not None
 
 
 def _is_other(cell: str, mark: str) -> bool:
-    """Whether a cell is a number only with this mark before its decimals."""
+    """Whether a cell is a number only with this decimal mark."""
     return WITH_ONE[mark].fullmatch(cell) is not None and not GROUPED[mark].fullmatch(cell)
 
 
 def _decided(written: Set[str], inner: Callable[[], Iterator[Place]], outside: Sequence[Line], name: str) -> str:
-    """The decimal mark that the numbers of the table prove, else those around it; an error where it is ambiguous."""
+    """Decimal mark proven by the numbers of the table, else of the lines around it; an error if ambiguous."""
     around = [(number, cell) for number, row in outside for cell in row]
     for forms, places in ((written, inner), ({cell for _, cell in around}, lambda: iter(around))):
         proven = {proves(form) for form in forms} - {None}
@@ -139,7 +139,7 @@ def _decided(written: Set[str], inner: Callable[[], Iterator[Place]], outside: S
 
 
 def _thousands_taken(written: Set[str], inner: Callable[[], Iterator[Place]], decimal: str) -> list[str]:
-    """A note on numbers whose mark is read as a thousands separator only because of other numbers."""
+    """Note on a mark read as thousands separator only because of other numbers."""
     ambiguous = GROUPED[OTHER[decimal]]
     if not any(ambiguous.fullmatch(form) and proves(form) is None for form in written):
         return []

@@ -1,4 +1,4 @@
-"""A question at a terminal: what is asked, what help says, and what a reply means."""
+"""Dialogue on a question at a terminal: prompt, help and interpretation of replies."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Say = Callable[[str], None]
 
 
 def parse_setting(text: str) -> tuple[str, Any]:
-    """``KEY=VALUE`` with a TOML value; a bare word is taken as text.
+    """Key and value of ``KEY=VALUE`` with a TOML value; a bare word is text.
 
     >>> parse_setting("contact.radius_mm=[9.525, inf]"), parse_setting("kind=film")
     (('contact.radius_mm', [9.525, inf]), ('kind', 'film'))
@@ -35,9 +35,9 @@ def _value(text: str) -> Any:
 
 
 def ask_for(question: Question, ask: Ask, say: Say) -> dict[str, Any] | None:
-    """The answer by its key; None where the question is left open.
+    """Answer to a question by key; None if it is left open.
 
-    An empty reply to a needed question without a likely answer shows the help, and a second one leaves it open.
+    An empty reply to a needed question without a likely answer shows the help; a second empty reply leaves it open.
     """
     words = f"{question.text}: {question.choices}" if question.choices else question.text
     listing: tuple[str, ...] = ()
@@ -70,7 +70,7 @@ def ask_for(question: Question, ask: Ask, say: Say) -> dict[str, Any] | None:
 
 
 def _hint(question: Question) -> str:
-    """What an empty reply does, how to give one value to all rows, and an example.
+    """Effect of an empty reply, example, and syntax of one value for all rows.
 
     >>> _hint(Question("import.columns.load_N", "Header", UNKNOWN_HEADER, one_value="import.values.load_N"))
     '=VALUE if all rows have the same; ? explains'
@@ -87,12 +87,12 @@ def _hint(question: Question) -> str:
 
 
 def _choices(question: Question) -> tuple[str, ...]:
-    """Choices that may be given by number; none where a choice is itself a number."""
+    """Choices selectable by number; none if a choice is itself a number."""
     return () if any(choice.isdecimal() for choice in question.options) else question.options
 
 
 def _help(question: Question, listing: Sequence[str]) -> Iterator[str]:
-    """What is asked for, the choices by number, and the setting that answers the question."""
+    """Help on a question: meaning, choices by number, and the setting for its answer."""
     if question.meaning:
         yield question.meaning
     if listing:

@@ -1,4 +1,4 @@
-"""Columns that are not taken although the reading depends on them: asked before the case is written, or said."""
+"""Columns left out although the reading depends on them: questions before the case is written, or notes."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from mixedlub.schema.units import words_of
 from profiles.errors import InputError, nearest
 
 LEAVE = "import.leave"
-"""The headers of columns that are left out although readings change with them."""
+"""Key of the headers left out on purpose although readings change with them."""
 SHEAR_RATE = re.compile(r"\b(?:shear[ _-]?rate|scherrate|schergeschwindigkeit|schergefälle)\b")
 FEWEST = 3
-"""Judgement. Different values of a column, and readings at equal conditions, that show a dependence."""
+"""Judgement. Fewest distinct values of a column and readings at equal conditions that show a dependence."""
 FOLLOWS, RELATED = 0.9, 0.7
-"""Judgement. Rank correlation with the reading from which it depends on the column, at equal conditions; from which a
-column is said to change with it, over all rows."""
+"""Judgement. Rank correlation with the reading at which it depends on the column, at equal conditions; at which a note
+reports the column, over all rows."""
 MOST_SAID = 3
-"""Judgement. Columns that are said to change with the reading at most."""
+"""Judgement. Most columns reported as changing with the reading."""
 
 
 def questions(
@@ -36,9 +36,9 @@ def questions(
     answers: Answers,
     offered: Mapping[str, str],
 ) -> list[Question]:
-    """A question on the columns left out that explain readings at equal conditions, or that are shear rates.
+    """Question on omitted columns that explain readings at equal conditions or are shear rates.
 
-    ``offered`` are the keys that take a column, by its header as a value.
+    ``offered``: keys that import a column, by its header in TOML.
     """
     left = answers.get(LEAVE, [])
     listed = [left] if isinstance(left, str) else list(left)
@@ -62,7 +62,7 @@ def questions(
 
 
 def _decides(header: str, cells: Sequence[str], conditions: Collection[np.ndarray], reading: np.ndarray) -> bool:
-    """Whether a column is a shear rate that varies, or orders the readings at equal conditions."""
+    """Whether a column is a varying shear rate or orders the readings at equal conditions."""
     if not is_numeric(cells):
         return False
     values = values_of(cells)
@@ -90,7 +90,7 @@ def _rank_correlation(one: np.ndarray, other: np.ndarray) -> float:
 
 
 def changing_with(free: Cells, reading: np.ndarray, quantity: str) -> Iterator[str]:
-    """Words on the columns left out that rise or fall with the reading, the closest first."""
+    """Notes on omitted columns correlated with the reading, strongest correlation first."""
     related = {
         h: abs(_rank_correlation(values_of(cells), reading)) for h, cells in free.items() if is_numeric(cells) and cells
     }

@@ -1,4 +1,4 @@
-"""Headers of tables: the names of the columns, with the units of a line below them."""
+"""Table headers: column names with the units of the line below."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from collections.abc import Sequence
 from mixedlub.schema.units import is_unit, split
 
 COUNTED = ("nr", "nr.", "no", "no.", "#", "n", "lfd. nr.", "lfd.nr.")
-"""Unit, in small letters, of a column that counts the rows."""
+"""Unit, in lower case, of a column of row numbers."""
 UNITS_LABEL = re.compile(r"(?:channel |y[ _])?(?:units?|einheit(?:en)?)(?:[ _]label)?:?", re.IGNORECASE)
-"""First cell of a line of units that labels itself."""
+"""First cell of a line labelled as units."""
 CLOCK_LABEL = re.compile(r"(?:time|sampling)? ?(?:interval|timestamp|start time|delta|dt)\b", re.IGNORECASE)
-"""First cell of a line that tells the clock of a channel."""
+"""First cell of a line on the clock of a channel."""
 
 
 def header_of(lines: Sequence[Sequence[str]]) -> tuple[list[str], int]:
-    """The header of a table from the lines above its rows, each name once, and how many of these lines it takes.
+    """Unique headers from the lines above the rows of a table, and number of lines they take.
 
     >>> header_of([["Test 7"], ["Load", "COF"], ["N", "-"]])
     (['Load (N)', 'COF (-)'], 2)
@@ -30,9 +30,9 @@ def header_of(lines: Sequence[Sequence[str]]) -> tuple[list[str], int]:
 
 
 def _names_above(above: Sequence[Sequence[str]], units: Sequence[str]) -> list[str]:
-    """The names above a line of units; none where the line is none. A line that labels itself may hold any units.
+    """Names above a line of units; empty for another line. A line labelled as units may have any units.
 
-    The label of a channel whose clock is told above it stands for its time.
+    The label of a channel with a clock above it denotes its time.
 
     >>> _names_above([["Interval", "0.1"], ["Channel name", "Force"]], ["Unit", "V"])
     ['Time', 'Force']
@@ -48,9 +48,9 @@ def _names_above(above: Sequence[Sequence[str]], units: Sequence[str]) -> list[s
 
 
 def _are_units(cells: Sequence[str], words: Sequence[str]) -> bool:
-    """Whether a line holds the units of the words above it, at least one known; one cell may count the rows.
+    """Whether a line holds units of the words above it, at least one known; one cell may count the rows.
 
-    An unknown unit is in brackets, or among twice as many known ones below a line that names every column.
+    Unknown units must be in brackets, or among twice as many known units below a line that names every column.
     """
     if len(cells) != len(words):
         return False
@@ -66,7 +66,7 @@ def _in_brackets(cell: str) -> bool:
 
 
 def _unique(header: Sequence[str]) -> list[str]:
-    """Headers with a number added to each repetition."""
+    """Headers with a number added to repetitions."""
     seen: dict[str, int] = {}
     unique = []
     for h in header:

@@ -1,4 +1,4 @@
-"""Instrument files as text: plain, compressed by gzip, in UTF-16, or one sheet of a workbook."""
+"""Instrument files as text: plain, compressed by gzip, in UTF-16, or a sheet of a workbook."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ from profiles.readers.workbook import Worksheet, is_workbook, longest, worksheet
 
 BYTE_ORDER_MARKS = (b"\xff\xfe", b"\xfe\xff")
 SAMPLE_LENGTH = 4096
-"""Characters from the start of a text that show whether it is one."""
+"""Characters at the start of a file that are checked to be text."""
 
 
 NO_TABLES = {
     "JSON": re.compile(r"\s*(?:\{\s*[\"}]|\[\s*[\[{\"])"),
     "HTML or XML": re.compile(r"\s*<(?:[!?]|html\b)", re.IGNORECASE),
 }
-"""How texts begin that hold no table, by the name of their format."""
+"""Starts of texts without a table, by name of their format."""
 READ_FORMS = "text with a header line and a row for each reading (.csv, .txt) and workbooks (.xlsx), each also .gz"
 
 
 @dataclass(frozen=True, eq=False)
 class InputFile:
-    """One file as its readers see it: its name, its text, notes about it. Its table is read once."""
+    """Input file: name, text and notes; its table is read once."""
 
     name: str
     text: str
@@ -42,14 +42,14 @@ class InputFile:
     tables: dict[str | None, Sheet] = field(default_factory=dict, repr=False)
 
     def table(self, decimal: str | None = None) -> Sheet:
-        """The table in the text; ``decimal`` is the mark before decimals where an answer names it."""
+        """Table in the text; ``decimal``: decimal mark from an answer."""
         if decimal not in self.tables:
             self.tables[decimal] = read_sheet(self.text, self.name, decimal, "\t" if self.is_workbook else "")
         return self.tables[decimal]
 
 
 def open_file(path: Path, answers: Answers) -> InputFile:
-    """The text of a file; of a workbook the sheet that an answer names, else the visible one with the longest table."""
+    """Text of a file; for a workbook, of the answered sheet or else the visible sheet with the longest table."""
     try:
         refuse_no_file(path)
         data = path.read_bytes()
@@ -71,7 +71,7 @@ def open_file(path: Path, answers: Answers) -> InputFile:
 
 
 def _with_mark(data: bytes) -> bytes:
-    """UTF-16 without a byte order mark gets it: in text of Western languages every second byte is zero.
+    """UTF-16 data with a byte order mark added if missing; in Western text every second byte is zero.
 
     >>> _with_mark("load_N".encode("utf-16-le"))[:2], _with_mark("load_N".encode("utf-16-be"))[:2], _with_mark(b"load")
     (b'\\xff\\xfe', b'\\xfe\\xff', b'load')
@@ -114,7 +114,7 @@ def _columns(letters: Sequence[str]) -> str:
 
 
 def _visible(sheet: Worksheet, name: str, answers: Answers) -> tuple[str, list[Finding]]:
-    """The text of a sheet without its hidden rows, unless an answer takes them, and a finding on them."""
+    """Text of a sheet without hidden rows, unless an answer takes them, and a finding on them."""
     choice = answers.get(HIDDEN_ROWS, "leave")
     if choice not in ("take", "leave"):
         raise InputError("must be 'take' or 'leave'", where=HIDDEN_ROWS, value=choice)

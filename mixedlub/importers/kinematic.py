@@ -1,4 +1,4 @@
-"""Kinematic viscosity times the density of the oil, where the answers tell it."""
+"""Conversion of kinematic viscosity with the density of the oil, if known from the answers."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ GIVE_DENSITY = "or give the density of the oil, lubricant.density_15C_kg_m3, and
 def as_dynamic(
     columns: Mapping[str, np.ndarray], units: Mapping[str, str], answers: Answers, where: str
 ) -> tuple[dict[str, np.ndarray], str]:
-    """The columns with dynamic instead of kinematic viscosities, and a note on it.
+    """Columns with dynamic instead of kinematic viscosities, and a note.
 
-    An error where the density is not known: mm²/s times g/cm³ is mPa s.
+    mm²/s times g/cm³ is mPa s; an unknown density is an error.
     """
     kinematic = [c for c in (VISCOSITY, f"{VISCOSITY}_sd") if c in columns and is_kinematic(units.get(c, ""))]
     if not kinematic or TEMPERATURE not in columns:
@@ -44,7 +44,7 @@ def as_dynamic(
 
 
 def _oil_of_known_density(answers: Answers) -> Lubricant | None:
-    """The oil of the answers; None where neither they nor the oil that they name have a density."""
+    """Oil of the answers; None without a density in the answers and the named oil."""
     section = toml_file.parse(system_file.Lubricant, nested(answers).get("lubricant", {}), "lubricant")
     with collected():
         return None if section.density_15C_kg_m3 is None else build.lubricant(section)

@@ -1,4 +1,4 @@
-"""LabVIEW measurement files (.lvm): a text table behind its heads, which tell units and the clock."""
+"""LabVIEW measurement files (.lvm): text tables after headers with units and clock."""
 
 from __future__ import annotations
 
@@ -13,18 +13,17 @@ MARKS = {"Tab": "\t", "Comma": ",", "Multi": "\t"}
 
 
 def matches(text: str) -> bool:
-    """Whether a text begins as LabVIEW writes measurements."""
+    """Whether a text starts like a LabVIEW measurement file."""
     return text.startswith("LabVIEW Measurement")
 
 
 def draft(file: InputFile, answers: Answers) -> Draft:
-    """A case from the table, read as a plain one."""
+    """Draft of a case from the table, read as a plain table."""
     return plain.draft(replace(file, text=as_table(file.text), tables={}), answers)
 
 
 def as_table(text: str) -> str:
-    """The table with the heads of its segments blank, so that lines keep their numbers; times are made of the clock
-    where the file has no column of them.
+    """Table with blank segment headers, which keeps line numbers; times from the clock if their column is missing.
 
     >>> head = f"LabVIEW Measurement\\nX_Columns\\tNo\\n{END}\\nY_Unit_Label\\tN\\nX0\\t2\\nDelta_X\\t0.5\\n{END}"
     >>> as_table(head + "\\nX_Value\\tLoad\\tComment\\n\\t20\\n\\t21\\n").split("\\n")[7:]
@@ -60,7 +59,7 @@ def as_table(text: str) -> str:
 
 
 def _named(cells: list[str], facts: dict[str, list[str]]) -> list[str]:
-    """The header with the names of time and units, without the column of comments."""
+    """Header with names of time and units, without the comment column."""
     units = facts.get("Y_Unit_Label", [])
     is_time = facts.get("X_Dimension", ["Time"])[0] == "Time"
     named = ["Time (s)" if is_time else cells[0]]

@@ -1,4 +1,4 @@
-"""Likeness of headers to columns: which kind and which columns a table probably holds."""
+"""Likeness of headers to columns, for the probable kind and columns of a table."""
 
 from __future__ import annotations
 
@@ -22,31 +22,31 @@ from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import fits, is_unit, split, words_of
 
 LEAST_LIKENESS = 0.4
-"""Likeness from which a header is offered: half of its words, or a fitting unit, or names in the cells. Judgement,
-as are the weights below: tests of likely headers hold them in place."""
+"""Judgement. Least likeness of an offered header: half of its words, a fitting unit, or names in the cells. Tests of
+likely headers hold it and the weights below in place."""
 UNIT_FITS = 0.45
 NO_UNIT_FITS = 0.01
-"""A number without a unit is rather a ratio than one whose unit is missing."""
+"""Likeness for a missing unit: such a number is probably a ratio."""
 ABSENT = 0.5
 """Penalty for a needed column without a similar header."""
 COUNTED_LIKENESS = 1.0
 """Likeness of the time to a count of cycles or a distance."""
 SOLE_UNIT = 0.9
-"""Least likeness of a header in a unit that only this column has: as much as unit and half of the words."""
+"""Least likeness for a unit of this column only: as much as unit and half of the words."""
 TEXT_FITS = 0.4
 MOST_NAMES = 4
-"""Judgement. Names that may each be in one row of a short table."""
+"""Judgement. Most names of a short table with each name in one row only."""
 SAME_WORD = 0.75
 DERIVED = re.compile(
     r"(?:slope|gradient|derivative|curvature|rate|damping|stiffness|duration|interval|pause|delay|index|"
     r"error|limit|threshold|tolerance|uncertainty|variance|zero|offset|drift|gain|sensitivity|change|difference|rise|"
     r"drop|wear|roughness|steigung|dämpfung|steifigkeit|dauer|fehler|grenze|verschleiß|rauheit)s?\.?"
 )
-"""Words for a quantity derived from the column: the slope of a friction is no friction."""
+"""Words for quantities derived from a column, such as the slope of a friction."""
 WEAR = re.compile(r"\bwear\b|\b(?:weight|mass|volume)[ _]loss\b|verschleiß|massenverlust")
-"""Words of a wear, which has columns of its own in many tables of friction."""
+"""Words of wear, a separate column in many tables of friction."""
 AS_IT_IS = {"corrected", "compensated", "free"}
-"""Words that cancel one of those: a friction whose zero is corrected."""
+"""Words that cancel such a word, as in a friction with corrected zero."""
 OTHERS = {
     "input",
     "output",
@@ -66,11 +66,11 @@ NO_READING = {
     "power_loss_W": OTHERS
     | {"motor", "drive", "shaft", "heater", "heating", "pump", "electric", "electrical", "mechanical"},
 }
-"""Words of a torque or a power that a rig transmits; the loss is the difference of two such columns."""
+"""Words of transmitted torque or power; the loss is the difference of two such columns."""
 
 
 def likely_headers(columns: Iterable[str], cells: Cells) -> dict[str, str]:
-    """The most similar header for each column, each header once; columns without one are left out."""
+    """Most similar header of each column, each header once; columns without similar header are left out."""
     pairs = sorted(
         ((likeness(column, header, cells[header]), column, header) for column in columns for header in cells),
         key=lambda pair: -pair[0],
@@ -83,12 +83,12 @@ def likely_headers(columns: Iterable[str], cells: Cells) -> dict[str, str]:
 
 
 def likely_kind(cells: Cells) -> str:
-    """The kind whose reading and needed columns the headers match best; kinds without their reading come last."""
+    """Kind with the best match of reading and needed columns; kinds without their reading come last."""
     return max(KINDS, key=lambda name: _share(name, cells))
 
 
 def _share(name: str, cells: Cells) -> tuple[bool, float, int]:
-    """Score of a kind: whether the reading is there; reading plus share of needed columns; number of those found."""
+    """Score of a kind: presence of the reading; likeness plus share of needed columns; number of columns present."""
     rules = kind_of(name)
     needed = [c.name for c in rules.columns if c.required]
     group = either(name)
@@ -103,9 +103,9 @@ def _share(name: str, cells: Cells) -> tuple[bool, float, int]:
 
 
 def likeness_of_reading(quantity: str, cells: Cells, header: str | None) -> float:
-    """Likeness of a header to a reading; two columns whose difference is the reading count as well.
+    """Likeness of a header to a reading; a difference of two columns equal to the reading counts as well.
 
-    A unit that no other column has decides: only a gear loss is in watts.
+    A unit of no other column decides: only a gear loss is in watts.
     """
     if header is None:
         return LEAST_LIKENESS if transmitted(quantity, cells) else 0.0
@@ -115,7 +115,7 @@ def likeness_of_reading(quantity: str, cells: Cells, header: str | None) -> floa
 
 
 def either(kind: str) -> tuple[str, ...]:
-    """Columns of which a kind needs exactly one."""
+    """Columns of a kind that exclude each other; exactly one is needed."""
     return kind_of(kind).either
 
 
@@ -138,7 +138,7 @@ BEFORE, AFTER = re.compile(rf"{SPREAD.pattern}\b(?: of)?"), re.compile(rf"\b{SPR
 
 
 def spread_of(header: str) -> str | None:
-    """The quantity whose standard deviation a header names; None where it names none.
+    """Quantity of a standard deviation named by a header, or None.
 
     >>> spread_of("film_sd_nm"), spread_of("StDev of torque (Nm)"), spread_of("sd"), spread_of("film_nm")
     ('film', 'torque', '', None)
@@ -149,7 +149,7 @@ def spread_of(header: str) -> str | None:
 
 
 def likely_spread(reading: Target, header: str, cells: Cells) -> str | None:
-    """The header of the standard deviation of the reading: its words are among those of the reading's header."""
+    """Header of the standard deviation of the reading, with words among the words of the reading."""
     reading_words = {*words_of(header).split(), *split(reading.name)[0].split()}
     n_words = {}
     for other, values in cells.items():
@@ -166,7 +166,7 @@ def likely_spread(reading: Target, header: str, cells: Cells) -> str | None:
 
 
 def relative_spread_notes(free: Cells) -> list[str]:
-    """Notes on columns of relative uncertainties, with the setting that takes their median.
+    """Notes on columns of relative uncertainties, with the setting for their median.
 
     >>> relative_spread_notes({"Uncertainty (%)": ["1", "2", "2"]})
     ["'Uncertainty (%)' is not taken; if it is that of the readings: --set recording.noise.relative=0.02"]
@@ -184,7 +184,7 @@ def _percent(header: str) -> bool:
 
 
 def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
-    """Similarity of a header to a column by words and unit; 0 where unit, words or cells exclude it.
+    """Similarity of a header to a column by words and unit; 0 if unit, words or cells exclude it.
 
     >>> likeness("speed_rpm", "Pinion speed [1/min]") > likeness("speed_rpm", "Pinion torque [Nm]")
     True
@@ -228,12 +228,12 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
 
 
 def is_empty(cells: Sequence[str]) -> bool:
-    """Whether a column has cells and nothing in them."""
+    """Whether all cells of a column are empty; False without cells."""
     return len(cells) > 0 and all(map(is_missing, cells))
 
 
 def is_remark(cells: Sequence[str]) -> bool:
-    """Whether text is in few cells or differs in most of them, as remarks and not names do.
+    """Whether text is in few cells or differs in most cells, like remarks but unlike names.
 
     >>> is_remark(["ground"] * 9 + ["polished"] * 9), is_remark(["", "", "restart"]), is_remark(["ground", "polished"])
     (False, True, False)
@@ -246,7 +246,7 @@ def is_remark(cells: Sequence[str]) -> bool:
 
 
 def transmitted(column: str, cells: Cells) -> list[str]:
-    """Headers in the unit of a reading whose words are those of another torque or power.
+    """Headers in the unit of a reading with the words of another torque or power.
 
     >>> transmitted("friction_torque_Nm", {"torque_sensor_Nm": ["1"], "speed_rpm": ["1"], "drag (N m)": ["1"]})
     ['torque_sensor_Nm']
@@ -278,7 +278,7 @@ def _is_derived(column: str, words: str) -> bool:
 
 
 def _overlap(words: str, spoken: str) -> float:
-    """Share of the spoken words found in a header, less a little for every additional word."""
+    """Share of the spoken words in a header, minus a little for each additional word."""
     in_header, in_name = words.split(), spoken.split()
     likeness_of = [max((difflib.SequenceMatcher(None, w, h).ratio() for h in in_header), default=0.0) for w in in_name]
     share = sum(n for n in likeness_of if n >= SAME_WORD) / len(in_name)
@@ -313,11 +313,11 @@ def spare_headers(columns: Iterable[Column], cells: Cells) -> dict[str, str]:
 
 
 OTHER_QUANTITIES = {"force", "power", "work", "energy", "heat"}
-"""Words of quantities that are no column of a case."""
+"""Words of quantities outside the columns of a case."""
 
 
 def rivals(column: str, taken: str, cells: Cells) -> list[str]:
-    """Other headers that may hold a column as well as the one taken, with other numbers in them.
+    """Other headers with different numbers that may hold the same column.
 
     >>> cells = {"COF": ["0.1"], "COF effective": ["0.2"], "Friction integral": ["0.2"], "Friction force": ["1"]}
     >>> rivals("friction_coefficient", "COF", cells), rivals("load_N", "Load (N)", {"Load (N)": ["1"], "Tick": ["1"]})
@@ -332,19 +332,19 @@ def rivals(column: str, taken: str, cells: Cells) -> list[str]:
 
 
 def rival_note(column: str, taken: str, others: Sequence[str]) -> str:
-    """A note on the headers that may be meant instead of the one taken, with the setting that takes each."""
+    """Note on alternatives to the header taken, with the setting for each."""
     settings = (f"{h!r}: --set {quoted(f'{COLUMNS}{column}={toml_value(h)}')}" for h in others)
     return f"{taken!r} is taken as {column}; if another is meant, {', or '.join(settings)}"
 
 
 def spare_questions(spare: Mapping[str, str]) -> list[Question]:
-    """Optional questions: whether to take these headers."""
+    """Optional questions whether to take these headers."""
     text = "is used where it is recorded: header of its column"
     return [Question(COLUMNS + column, f"{column} {text}", toml_value(h), needed=False) for column, h in spare.items()]
 
 
 def spare_notes(spare: Mapping[str, str]) -> Sequence[str]:
-    """Notes on headers left out, with the setting that takes each."""
+    """Notes on headers left out, with the setting for each."""
     return [
         f"{h!r} is not taken; if it is {column}: --set {quoted(f'{COLUMNS}{column}={toml_value(h)}')}"
         for column, h in spare.items()

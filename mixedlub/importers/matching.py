@@ -1,4 +1,4 @@
-"""Matching of headers to the columns of a case, with their units; the rest becomes questions."""
+"""Matching of headers to columns of a case with units; the remainder becomes questions."""
 
 from __future__ import annotations
 
@@ -55,12 +55,12 @@ from mixedlub.schema.units import fits, open_units, split, unit_of, words_of
 from profiles.errors import InputError, nearest
 
 AMBIGUOUS = 0.1
-"""Difference of likeness up to which another header is listed as equally likely: judgement."""
+"""Judgement. Difference of likeness up to which another header is listed as equally likely."""
 
 
 @dataclass(frozen=True)
 class Match:
-    """Headers and units to convert from by column, open questions, notes on choices, warnings of unused columns."""
+    """Headers and source units by column, open questions, notes on choices, warnings of unused columns."""
 
     headers: Mapping[str, str]
     units: Mapping[str, str]
@@ -79,7 +79,7 @@ class _Matched:
 
 
 def wanted(kind: Kind, quantity: str, answers: Answers) -> tuple[Column, ...]:
-    """Every column that a case of a kind may hold, except ``run``."""
+    """All columns possible in a case of a kind, except ``run``."""
     check = answers.get("recording.check")
     return (
         *kind.columns,
@@ -92,7 +92,7 @@ def wanted(kind: Kind, quantity: str, answers: Answers) -> tuple[Column, ...]:
 
 
 def import_keys(columns: Sequence[Column]) -> tuple[str, ...]:
-    """The answers that match headers to these columns."""
+    """Keys of the answers that match headers to these columns."""
     return (
         f"{COLUMNS}run",
         *(COLUMNS + c.name for c in columns),
@@ -102,7 +102,7 @@ def import_keys(columns: Sequence[Column]) -> tuple[str, ...]:
 
 
 def match(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> Match:
-    """Headers and units of the columns of a case; a needed column with no header or several becomes a question."""
+    """Headers and units of the columns of a case; a needed column without a unique header becomes a question."""
     columns = without_value(wanted(kind, quantity, answers), answers)
     named = {c.name: _named_header(c.name, cells, answers) for c in columns if COLUMNS + c.name in answers}
     matched = _Matched(headers=dict(named))
@@ -147,7 +147,7 @@ def match(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> Match:
 def _rivals(
     quantity: str, named: Mapping[str, str], headers: Mapping[str, str], cells: Cells, left: Cells
 ) -> tuple[str, ...]:
-    """A note on headers that may hold the reading, where no answer and no column's own name decides."""
+    """Note on headers that may hold the reading, if neither an answer nor an exact column name decides."""
     header = headers.get(quantity)
     if header is None or quantity in named or is_named(header, quantity):
         return ()
@@ -156,7 +156,7 @@ def _rivals(
 
 
 def _explained(question: Question, kind: Kind) -> Question:
-    """The question with the meaning of its column, and the key of one value for all rows, which the time never has."""
+    """Question with the meaning of its column and, except for time, the key of one value for all rows."""
     name = question.key.rpartition(".")[2]
     column = next((c for c in (*kind.columns, *kind.instrument_channels, *kind.readings) if c.name == name), None)
     if column is None:
@@ -187,7 +187,7 @@ def _named_header(column: str, cells: Cells, answers: Answers) -> str:
 
 
 def _find_header(column: Column, cells: Cells, matched: _Matched) -> None:
-    """The header of a column, by name or by the words of instruments; an optional column takes the first of several."""
+    """Find the header of a column by name or instrument words; an optional column takes the first of several."""
     exact = [h for h in cells if is_named(h, column.name)]
     if exact:
         matched.headers[column.name] = exact[0]
@@ -217,7 +217,7 @@ def _find_header(column: Column, cells: Cells, matched: _Matched) -> None:
 
 
 def _find_count(cells: Cells, matched: _Matched) -> None:
-    """The header that counts cycles or a distance; a question where another may hold the time itself."""
+    """Find the header of a count of cycles or distance; ask a question if another column may hold the time."""
     header = header_of_count(cells)
     if header is None or COLUMNS + TIME in {question.key for question in matched.questions}:
         return
@@ -231,9 +231,9 @@ def _find_count(cells: Cells, matched: _Matched) -> None:
 
 
 def _speaks_of(header: str, column: str) -> bool:
-    """Whether a header has the words of a column, and no unit of another quantity.
+    """Whether a header has the words of a column and no unit of another quantity.
 
-    An unknown unit may be meant for this column: it is refused later, with the possible ones.
+    A header with an unknown unit matches; the unit is an error later, with the possible units.
 
     >>> [_speaks_of(h, "friction_coefficient") for h in ("mu", "mu [%]", "mu [mPa s]", "mu [cSt]", "mu [Vs]")]
     [True, True, False, False, True]
@@ -248,7 +248,7 @@ def _speaks_of(header: str, column: str) -> bool:
 
 
 def _one_of(group: tuple[str, ...], named: set[str], matched: _Matched) -> None:
-    """Of columns that exclude each other the one that an answer names, else a question."""
+    """Keep the answered column among columns that exclude each other, or ask a question."""
     present = [c for c in group if c in matched.headers]
     chosen = [c for c in present if c in named]
     if len(present) < 2 or len(chosen) > 1:
@@ -269,7 +269,7 @@ def _absent_check(check: Any, cells: Cells, headers: Mapping[str, str]) -> None:
 def _near(
     missing: Sequence[str], cells: Cells, headers: Mapping[str, str], certain: Mapping[str, str]
 ) -> dict[str, str]:
-    """Headers similar to needed columns: unused ones, else one that was taken for an optional column."""
+    """Headers similar to needed columns: unused headers, or else headers taken for an optional column."""
     similar = likely_headers(missing, _offered(cells, headers))
     lent = {h: values for h, values in _offered(cells, certain).items() if h not in similar.values()}
     return {**likely_headers([c for c in missing if c not in similar], lent), **similar}
@@ -313,26 +313,26 @@ def _missing(
 
 
 def _of_names(cells: Cells, free: Sequence[str]) -> tuple[str, ...]:
-    """Headers of columns of text, or else those that nothing was taken from: names may be numbers."""
+    """Headers of text columns, or else all unused headers, since names may be numbers."""
     filled = {h: values for h, values in cells.items() if not is_empty(values)}
     return tuple(h for h, values in filled.items() if not is_numeric(values)) or tuple(h for h in free if h in filled)
 
 
 def _offered(cells: Cells, headers: Mapping[str, str]) -> Cells:
-    """Unused headers, without the speeds of single surfaces."""
+    """Unused headers, without speeds of single surfaces."""
     free = {h: values for h, values in cells.items() if h not in headers.values()}
     return {h: values for h, values in free.items() if other_surface(h, cells) is None}
 
 
 def _two_speeds(column: str, cells: Cells) -> str:
-    """The reason why the speeds of two surfaces are not offered."""
+    """Reason against offering the speeds of two surfaces."""
     single = [h for h in cells if other_surface(h, cells) is not None] if column in FROM_BOTH_SPEEDS else []
     made = FROM_BOTH_SPEEDS.get(column, "").removesuffix(" with that of").removesuffix(" to that of")
     return f"; {', '.join(single)}: speeds of single surfaces, {made}, add a column of it" if single else ""
 
 
 def _spare(kind: Kind, quantity: str, cells: Cells, matched: _Matched) -> dict[str, str]:
-    """Headers similar to optional columns that were not found."""
+    """Headers similar to optional columns that have none."""
     open_keys = {q.key.removeprefix(COLUMNS) for q in matched.questions}
     possible = (*kind.columns, *kind.instrument_channels)
     absent = [
@@ -347,13 +347,13 @@ def _spare(kind: Kind, quantity: str, cells: Cells, matched: _Matched) -> dict[s
 
 
 def _is_of(others: Sequence[str], column: str, header: str, cells: Sequence[str]) -> bool:
-    """Whether a header is clearly that of another column that has none yet."""
+    """Whether a header clearly belongs to another column without a header."""
     near = likeness(column, header, cells)
     return any(likeness(other, header, cells) > near + AMBIGUOUS for other in others)
 
 
 def _equally_likely(column: str, header: str | None, free: Cells) -> str:
-    """The headers that are as similar to a column as the most similar one, where there are several."""
+    """Headers about as similar to a column as the most similar header; empty if unique."""
     if header is None:
         return ""
     least = likeness(column, header, free[header]) - AMBIGUOUS

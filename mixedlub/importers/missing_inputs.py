@@ -1,4 +1,4 @@
-"""Inputs that a kind of case needs and system.toml lacks: as a list, and as comments to fill in."""
+"""Inputs missing in system.toml for a kind of case: as a list, and as comments to fill in."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from mixedlub.schema.toml_file import default_of, toml_key, toml_value
 
 @dataclass(frozen=True)
 class Gap:
-    """Keys that a table of system.toml lacks, and whether the case is refused without the table.
+    """Keys missing in a table of system.toml; ``required``: the case is invalid without the table.
 
-    Each key of ``enough`` is by itself as good as all that are needed.
+    Each key of ``enough`` replaces all needed keys.
     """
 
     table: str
@@ -34,7 +34,7 @@ class Gap:
     enough: tuple[str, ...] = ()
 
     def comments(self) -> Iterator[str]:
-        """Comment lines for the file: deleting the comment mark takes the value."""
+        """Comment lines for the file; removing the comment mark sets the value."""
         if self.absent:
             yield f"# [{self.table}]" + ("  # needed" if self.required else "")
         for key in (*self.needed, *self.assumed):
@@ -46,7 +46,7 @@ class Gap:
 
     @property
     def blocking(self) -> str:
-        """What is needed, in one line, the shortest that is enough first."""
+        """Needed keys in one line, the shortest sufficient keys first."""
         if not self.needed:
             choices = (f", if only {k} = {toml_value(key.example)}" for k, key in self.keys.items() if key.values)
             return f"[{self.table}] with what is known{next(choices, '')}; the rest is taken as typical"
@@ -54,14 +54,14 @@ class Gap:
         return f"[{self.table}] " + (f"with {' or '.join(self.enough)}; or {every}" if self.enough else every)
 
     def open(self, taken: Mapping[str, str]) -> str:
-        """Optional keys that are not given, in one line, with the values ``taken`` or else the defaults."""
+        """Optional keys not given, in one line, with the values ``taken`` or else the defaults."""
         place = f"{self.table}." if self.table else ""
         values = {key: taken.get(key, value) for key, value in self.assumed.items()}
         return "; ".join(place + key + (f" ({value})" if value else "") for key, value in values.items())
 
 
 def gaps(system: system_file.System, columns: Mapping[str, np.ndarray]) -> tuple[Gap, ...]:
-    """The inputs of the system's kind that the system lacks; the rows name the surfaces."""
+    """Inputs of the kind missing in the system; the rows name the surfaces."""
     rules = kind_of(system.kind)
     reads = _reads(system, columns)
     head = _keys("")
@@ -88,19 +88,19 @@ def gaps(system: system_file.System, columns: Mapping[str, np.ndarray]) -> tuple
 
 
 def _reads(system: system_file.System, columns: Mapping[str, np.ndarray]) -> set[str]:
-    """What the laws of the kind's chain read."""
+    """Inputs of the laws in the chain of the kind."""
     chain = kind_of(system.kind).chain(system, Table(columns))
     return {name for _, law in chain for name in inspect.signature(law).parameters}
 
 
 def _movable(system: system_file.System) -> tuple[Any, ...]:
-    """Everything that calibration can move."""
+    """All inputs that calibration can change."""
     everything = system_file.Uncertainty(**dict.fromkeys(system_file.Uncertainty.model_fields, 1.0))
     return calibrations(system.model_copy(update={"uncertainty": everything}))
 
 
 def undescribed(system: system_file.System, columns: Mapping[str, np.ndarray]) -> list[str]:
-    """Surfaces that the rows name and the system does not describe, where the kind computes with them."""
+    """Surfaces named in the rows but missing in the system, if the kind uses surfaces."""
     if "surfaces" not in kind_of(system.kind).sections:
         return []
     named = [c.name for c in kind_of(system.kind).columns if c.dtype == "name" and "surface" in c.name]
@@ -109,13 +109,13 @@ def undescribed(system: system_file.System, columns: Mapping[str, np.ndarray]) -
 
 
 def _keys(section: str) -> dict[str, Key]:
-    """The keys of a table of system.toml; at the top those that are no tables."""
+    """Keys of a table of system.toml; at the top level without tables."""
     described = table(system_file.System, section)
     return {key.name: key for key in (described.fields if section else described.keys)}
 
 
 def _gap(section: str, name: str, given: Section | None, required: bool, known: Set[str] = frozenset()) -> Gap:
-    """Keys of a section that are not given; a key is needed if the section is refused without it."""
+    """Keys missing in a section; a key is needed if the section is invalid without it."""
     keys = _keys(section)
     present = known if given is None else known | given.model_fields_set
     model = table(system_file.System, section).model
@@ -126,7 +126,7 @@ def _gap(section: str, name: str, given: Section | None, required: bool, known: 
 
 
 def gap_lines(open_gaps: tuple[Gap, ...], file: str, system: system_file.System) -> Iterator[str]:
-    """The gaps in words, one a line, those that prevent a computation first."""
+    """Gaps in words, one per line, first the gaps that prevent a computation."""
     taken = {"lubricant": oil_taken(system.lubricant)}
     if system.gears is not None:
         taken["gears"] = gears_taken(system.gears)

@@ -1,4 +1,4 @@
-"""Rows and cells of a table that are no readings: repeated headers, means and sums, errors of a spreadsheet."""
+"""Rows and cells of a table that are not readings: repeated headers, means and sums, spreadsheet errors."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from mixedlub.importers.decimals import Line
 from mixedlub.schema.table import is_number
 
 LINES_SHOWN = 5
-"""Lines that a note lists at most."""
+"""Most lines listed in a note."""
 
 
 def count(number: int, thing: str) -> str:
-    """A number of things in words.
+    """Number of things in words.
 
     >>> count(1, "row"), count(3, "row")
     ('1 row', '3 rows')
@@ -22,7 +22,7 @@ def count(number: int, thing: str) -> str:
 
 
 def places(lines: Sequence[int]) -> str:
-    """Numbers of lines in words.
+    """Line numbers in words.
 
     >>> places([14]), places([3, 9]), places(list(range(2, 20)))
     ('line 14', 'lines 3, 9', 'lines 2, 3, 4, 5, 6 and 13 more')
@@ -32,7 +32,7 @@ def places(lines: Sequence[int]) -> str:
 
 
 def without_repeated_headers(rows: Sequence[Line]) -> tuple[list[Line], str]:
-    """The rows without headers that are repeated between rows of numbers, and words on these.
+    """Rows without headers repeated between rows of numbers, and a text on them.
 
     >>> head, rows = ["rpm", "Nm"], [(2, ["1", "0.1"]), (5, ["2", "0.2"])]
     >>> without_repeated_headers([(1, head), rows[0], (4, head), rows[1]])[1]
@@ -63,7 +63,7 @@ SUMMARY = re.compile(
 
 
 def without_summaries(rows: Sequence[Line]) -> tuple[list[Line], str]:
-    """The rows without means and sums of others, by their labels, and words on these; a table of means keeps its rows.
+    """Rows without labelled means and sums of others, and a text on them; a table of means keeps its rows.
 
     >>> without_summaries([(2, ["1", "0.1"]), (3, ["2", "0.3"]), (4, ["Mean:", "0.2"])])
     ([(2, ['1', '0.1']), (3, ['2', '0.3'])], "1 row left out, as it is labelled 'Mean:': line 4")
@@ -88,11 +88,11 @@ FAULT = re.compile(
     r"[-+]?1\.#(?:INF|IND|QNAN)\d*|[-+]?inf(?:inity)?",
     re.IGNORECASE,
 )
-"""Cell in which a program reports an error or an infinite number."""
+"""Cell with an error message of a program or an infinite number."""
 
 
 def cleared(cells: list[str], lines: Sequence[int]) -> dict[int, str]:
-    """The cells without a number because of an error, by their line; they are emptied."""
+    """Empty the cells with an error in place of a number; return their contents by line."""
     if not {"#", "i", "I", "E"} & set("".join(set(cells))):
         return {}
     faults = {i: cell for i, cell in enumerate(cells) if FAULT.fullmatch(cell)}

@@ -1,4 +1,4 @@
-"""Columns that have the same value in all rows, by an answer."""
+"""Columns with one value in all rows, from an answer."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from profiles.errors import InputError
 
 
 def value_keys(kind: Kind) -> tuple[str, ...]:
-    """The answers that give a column of a kind one value."""
+    """Keys of the answers that give a column of a kind one value."""
     return tuple(VALUES + column.name for column in kind.columns)
 
 
 def without_value(columns: Sequence[Column], answers: Answers) -> tuple[Column, ...]:
-    """The columns that need a header, as no answer gives their value."""
+    """Columns that need a header, since no answer gives their value."""
     return tuple(column for column in columns if VALUES + column.name not in answers)
 
 
 def constants(kind: Kind, answers: Answers, rows: int) -> dict[str, np.ndarray]:
-    """The columns of a kind that have one value by an answer, each checked by the rules of its column."""
+    """Columns of a kind with one value from an answer, checked by the rules of the column."""
     columns = {}
     for column in kind.columns:
         key = VALUES + column.name

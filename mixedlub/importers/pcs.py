@@ -26,16 +26,16 @@ from profiles.errors import InputError, nearest
 STEP = re.compile(r'^Step (\d+)(?: "[^"]*")? started at (\d\d/\d\d/\d{4} \d\d:\d\d(?::\d\d)?)')
 TYPE = re.compile(r"^Step type\t([^\t]*)(?:\tStep description\t([^\t]*))?")
 RECORDED_SHARE = 0.5
-"""Share of filled cells from which a column counts as recorded: judgement."""
+"""Judgement. Least share of filled cells of a recorded column."""
 TIMED = "TIMED"
-"""Suffix of the step types in which conditions are held constant."""
+"""Suffix of the types of steps at constant conditions."""
 SWEPT_RANGE = 0.2
-"""Range of the middle 80 % over the largest value, above which a condition is swept."""
+"""Range of the middle 80 % over the largest value above which a condition is swept."""
 
 
 @dataclass(frozen=True)
 class Step:
-    """One step with readings: type, start, columns by header (nan where a value is missing), lines."""
+    """Step with readings: type, start, columns by header (nan for missing values), lines."""
 
     number: int
     step_type: str
@@ -44,7 +44,7 @@ class Step:
     lines: tuple[int, ...]
 
     def header(self, target: str) -> str | None:
-        """The header of a column; of several the one with fewest gaps, then the later, more precise one."""
+        """Header of a column; among several, with the fewest gaps, then the later, more precise header."""
         exact = [h for h in self.columns if (t := target_of(h)) is not None and t.name == target]
         return max(exact, key=lambda h: (int(np.isfinite(self.columns[h]).sum()), exact.index(h)), default=None)
 
@@ -58,7 +58,7 @@ class Step:
         return header is not None and bool(np.isfinite(self.columns[header]).all())
 
     def read(self, target: str, name: str) -> np.ndarray:
-        """A column in the unit of a case."""
+        """Column in the unit of a case."""
         header = self.header(target)
         assert header is not None
         unit = split(header)[1] or ("-" if BY_NAME[target].unit == "ratio" else None)
@@ -76,13 +76,13 @@ class Step:
         return bool(high - low > SWEPT_RANGE * np.nanmax(np.abs(values)))
 
     def since(self, first: datetime, name: str) -> np.ndarray:
-        """Seconds of the readings since the start of the first step."""
+        """Times of the readings since the start of the first step (s)."""
         before = (self.start - first).total_seconds()
         return rounded(before + self.read("time_s", name), before)
 
 
 def steps_of(text: str, name: str) -> tuple[Step, ...]:
-    """The steps that hold readings."""
+    """Steps with readings."""
     steps: list[Step] = []
     number, start, step_type = 0, None, ""
     lines = iter(enumerate(text.splitlines(), start=1))
@@ -104,7 +104,7 @@ def steps_of(text: str, name: str) -> tuple[Step, ...]:
 
 
 def without_gaps(steps: tuple[Step, ...], targets: Sequence[str], name: str) -> tuple[tuple[Step, ...], list[str]]:
-    """The steps without readings that lack one of the columns, and a note for every column with gaps."""
+    """Steps without readings that lack one of the columns, and a note for every column with gaps."""
     gaps: dict[str, list[int]] = {}
     complete = []
     for step in steps:
@@ -136,7 +136,7 @@ def _is_header(line: str) -> bool:
 
 
 def _columns(header: str, rows: list[list[str]], where: str) -> dict[str, np.ndarray]:
-    """The columns of numbers; of a repeated header the later, more precise one."""
+    """Columns of numbers; of a repeated header, the later, more precise column."""
     columns: dict[str, np.ndarray] = {}
     for i, name in enumerate(header.split("\t")):
         cells = [row[i] if i < len(row) else "" for row in rows]
@@ -164,7 +164,7 @@ TAKEN = {
     "disc": (*CONDITIONS, "friction_coefficient"),
     "friction_map": ("load_N", "friction_coefficient"),
 }
-"""Columns of each kind that these rigs record, the reading last."""
+"""Columns of each kind recorded by these rigs, the reading last."""
 SWEPT, SLIDING = ("entrainment_speed_m_s", "slide_roll_ratio"), "sliding_speed_m_s"
 SWEPT_NOTE = (
     "speeds are swept within the steps, and taken as friction in time; --set 'kind=\"disc\"' takes the film "
@@ -189,7 +189,7 @@ def matches(text: str) -> bool:
 
 
 def without_cut_line(text: str) -> tuple[str, int | None]:
-    """The text without a truncated last row, and the number of that line, if there is one.
+    """Text without a truncated last row, and the number of that line or None.
 
     >>> without_cut_line("a\\t(b)\\tc\\n1\\t2\\t3\\n4\\t5")
     ('a\\t(b)\\tc\\n1\\t2\\t3\\n', 3)
@@ -204,7 +204,7 @@ def without_cut_line(text: str) -> tuple[str, int | None]:
 
 
 def _incomplete(text: str, name: str, cut: int | None) -> tuple[Finding, ...]:
-    """Notes on steps that the header of the file counts and the file lacks, and on a truncated row."""
+    """Findings on missing steps, by the count in the file header, and on a truncated row."""
     stated = {which: int(count) for which, count in STEP_COUNT.findall(text)}
     expected = stated.get("completed", stated.get("in profile", 0))
     n_steps = sum(bool(STEP.match(line)) for line in text.splitlines())
@@ -219,7 +219,7 @@ def _incomplete(text: str, name: str, cut: int | None) -> tuple[Finding, ...]:
 
 
 def draft(file: InputFile, answers: Answers) -> Draft:
-    """The case of a file: film against speed, or friction against time, conditions or sliding speed."""
+    """Draft of a case: film against speed, or friction against time, conditions or sliding speed."""
     name = file.name
     text, cut = without_cut_line(file.text)
     incomplete = _incomplete(text, name, cut)
@@ -278,9 +278,9 @@ def draft(file: InputFile, answers: Answers) -> Draft:
 
 
 def _kind(steps: Sequence[Step], answers: Answers) -> tuple[str, tuple[Question, ...]]:
-    """The kind that is answered, or that fits the steps; where their speeds are swept, other kinds are offered.
+    """Kind from the answers or the steps; other kinds are offered if speeds are swept.
 
-    Where the contact is described, friction at swept speeds is taken as that of a ball on a disc.
+    With a described contact, friction at swept speeds is taken as measured with a ball on a disc.
     """
     kind = answered_kind(answers, TAKEN)
     if kind is not None:
@@ -293,7 +293,7 @@ def _kind(steps: Sequence[Step], answers: Answers) -> tuple[str, tuple[Question,
 
 
 def _chosen(steps: Sequence[Step], kind: str) -> tuple[Step, ...]:
-    """The steps that a kind uses; for a kind against conditions those that sweep them."""
+    """Steps used for a kind; for a kind against conditions, the steps that sweep them."""
     if kind == "film":
         return tuple(s for s in steps if s.step_type in FILM_TYPES and s.has("film_thickness_nm"))
     frictions = tuple(s for s in steps if s.has("friction_coefficient"))
@@ -303,14 +303,14 @@ def _chosen(steps: Sequence[Step], kind: str) -> tuple[Step, ...]:
 
 
 def _further(chosen: Sequence[Step], kind: str) -> tuple[str, ...]:
-    """Columns that a kind needs in addition to those it takes unchanged."""
+    """Columns needed for a kind besides the columns taken unchanged."""
     if kind == "friction_map":
         return (SLIDING,) if all(s.has(SLIDING) for s in chosen) else SWEPT
     return ("time_s",) if kind == "friction_history" else ()
 
 
 def _most_common(steps: tuple[Step, ...]) -> tuple[Step, ...]:
-    """The steps of the type with most readings, which is the purpose of the test."""
+    """Steps of the type with most readings, the purpose of the test."""
     if not steps:
         return ()
     types = [s.step_type for s in steps for _ in s.lines]
@@ -323,7 +323,7 @@ def _joined(chosen: Sequence[Step], target: str, name: str) -> np.ndarray:
 
 
 def _sliding_speed(chosen: Sequence[Step], name: str) -> np.ndarray:
-    """As recorded, else the slide-roll ratio times the mean speed."""
+    """Sliding speed as recorded, or else slide-roll ratio times mean speed."""
     if all(s.has(SLIDING) for s in chosen):
         return _joined(chosen, SLIDING, name)
     if not all(s.has(w) for s in chosen for w in SWEPT):
@@ -335,7 +335,7 @@ def _sliding_speed(chosen: Sequence[Step], name: str) -> np.ndarray:
 def _spread(
     chosen: Sequence[Step], quantity: str, name: str, answers: Answers
 ) -> tuple[dict[str, np.ndarray], Sequence[Question], Sequence[Finding]]:
-    """The standard deviation of the reading where an answer names its header, else the question for a likely one."""
+    """Standard deviation of the reading under the answered header, or a question on a likely header."""
     column = f"{quantity}_sd"
     target, named = target_for(column), answers.get(COLUMNS + column)
     reading = chosen[0].header(quantity)
@@ -367,7 +367,7 @@ def _refuse_absent(columns: Set[str], name: str) -> None:
 def _temperature(
     chosen: tuple[Step, ...], name: str, answers: Answers
 ) -> tuple[dict[str, np.ndarray], tuple[Question, ...], tuple[Finding, ...]]:
-    """Oil temperature by the probe in the oil; a question where the two probes disagree."""
+    """Oil temperature from the probe in the oil; a question if the two probes disagree."""
     probes: dict[str, np.ndarray] = {}
     for probe, words in PROBES.items():
         headers = [[h for h, v in s.columns.items() if split(h)[0] in words and np.isfinite(v).all()] for s in chosen]

@@ -1,4 +1,4 @@
-"""Plain tables: one header line and any common separator."""
+"""Plain tables with a header line and any common separator."""
 
 from __future__ import annotations
 
@@ -46,14 +46,14 @@ from profiles.errors import InputError, nearest
 
 
 def matches(text: str) -> bool:
-    """Any text may be a table."""
+    """True, since any text may be a table."""
     return True
 
 
 def draft(file: InputFile, answers: Answers) -> Draft:
-    """A case from a table: columns by their headers; kind, quantity and missing units are questions.
+    """Draft of a case from a table: columns by header; kind, quantity and missing units are questions.
 
-    While kind or quantity is open, the questions of the likely one are included.
+    While kind or quantity is open, the questions for the likely choice are included.
     """
     kind, name = answers.get("kind"), file.name
     if kind is not None and kind not in KINDS:
@@ -124,7 +124,7 @@ def draft(file: InputFile, answers: Answers) -> Draft:
 
 
 def _quantity(likely: Kind, cells: Cells, answers: Answers) -> tuple[str, list[Question]]:
-    """The recorded quantity, or the likely one, and the questions on kind and quantity that are open."""
+    """Recorded or likely quantity, and open questions on kind and quantity."""
     kind, quantity = answers.get("kind"), answers.get("recording.quantity")
     among = likely.quantities
     if kind is not None and quantity is not None and quantity not in among:
@@ -145,7 +145,7 @@ def _quantity(likely: Kind, cells: Cells, answers: Answers) -> tuple[str, list[Q
 def _columns(
     kind: Kind, quantity: str, matched: Match, sheet: Sheet, answers: Answers
 ) -> tuple[dict[str, np.ndarray], list[str], list[Finding]]:
-    """The columns in the units of a case, notes on columns that are made of others, and findings on the clock."""
+    """Columns in case units, notes on derived columns, and findings on the clock."""
     rules = {column.name: column for column in wanted(kind, quantity, answers)}
     open_columns = {TIME if q.key in PACE_KEYS else q.key.rpartition(".")[2] for q in matched.questions}
     columns = {
@@ -166,7 +166,7 @@ def _columns(
 
 
 def _pooled(free: Cells, conditions: Collection[np.ndarray], file: str) -> Iterator[Finding]:
-    """A finding for every column left out that distinguishes things whose rows are then pooled."""
+    """Findings on omitted columns that distinguish groups of rows, which are then pooled."""
     for header, cells in grouping_columns(free, conditions):
         value = toml_value(cells[0]) if not is_number(cells[0]) and re.search(r"[^\w-]", cells[0]) else cells[0]
         setting = quoted(f"{ONLY}{header}={value}")
@@ -192,13 +192,13 @@ def _decimal(answers: Answers) -> str | None:
 
 
 def _likely_quantity(kind: Kind, cells: Cells) -> str:
-    """The quantity with the most similar header."""
+    """Quantity with the most similar header."""
     similar = likely_headers(kind.quantities, cells)
     return max(kind.quantities, key=lambda q: likeness_of_reading(q, cells, similar.get(q)))
 
 
 def _values(rule: Column, header: str, sheet: Sheet, unit: str | None) -> np.ndarray:
-    """The cells of a column in its unit, within the bounds that a case sets; the first wrong one is named."""
+    """Values of a column in its unit, within the bounds of a case; raise an error for the first invalid cell."""
     cells = sheet.cells[header]
 
     def place(row: int) -> str:

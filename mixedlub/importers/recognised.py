@@ -1,4 +1,4 @@
-"""Tables that no kind takes: refused with what is taken instead of the questions of an unlikely kind."""
+"""Rejection of tables that fit no kind, in place of questions for an unlikely kind."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ HEADERS_SHOWN = 8
 
 
 def refuse_unrecognised(cells: Cells, name: str, answers: Answers) -> None:
-    """An error about a table in which no column may be the reading of any kind, unless an answer names one."""
+    """Raise an error if no column may be the reading of any kind, unless an answer names a reading."""
     readings: dict[str, list[str]] = {}
     for kind in KINDS:
         for quantity in kind_of(kind).quantities:
@@ -41,7 +41,7 @@ def refuse_unrecognised(cells: Cells, name: str, answers: Answers) -> None:
 
 
 def logarithm_doubt(quantity: str, header: str, reading: np.ndarray) -> Iterator[str]:
-    """Words on viscosities whose header and size are those of a logarithm.
+    """Question on viscosities with header and size of a logarithm.
 
     >>> list(logarithm_doubt("viscosity_mPa_s", "lnviscosity", np.array([5.7, 2.4])))
     ["'lnviscosity' has a logarithm in its name, and values of 2.4 to 5.7 as logarithms have: are they viscosities?"]

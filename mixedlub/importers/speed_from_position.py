@@ -1,4 +1,4 @@
-"""A speed that a table holds as a position or an angle over time: its derivative."""
+"""Speed as the derivative of a position or angle over time."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from mixedlub.schema.units import change_to, split
 from profiles.errors import InputError, nearest
 
 SPEED_FROM = "import.speed_from"
-"""The header of the position whose derivative over time is taken as speed."""
+"""Key of the header of the position that is differentiated."""
 SPEEDS = {"m": ("sliding_speed_m_s", 1.0), "deg": ("speed_rpm", 1.0 / 6.0)}
-"""By the unit of the position: the column that its derivative is, and its size for one unit a second."""
+"""Column of the derivative and its size for one unit per second, by the unit of the position."""
 FROM_POSITION = tuple(column for column, _ in SPEEDS.values())
 
 
@@ -27,7 +27,7 @@ def _measure(header: str) -> str | None:
 
 
 def positions(cells: Cells) -> list[str]:
-    """The headers that may be a position over time; none without a time.
+    """Headers of possible positions over time; empty without a time.
 
     >>> positions({"Time (s)": ["0", "1"], "Position (mm)": ["0", "5"], "Wear (mm)": ["0", "0"]})
     ['Position (mm)', 'Wear (mm)']
@@ -42,7 +42,7 @@ def _time(cells: Cells) -> str | None:
 
 
 def with_speed(sheet: Sheet, answers: Answers) -> tuple[Sheet, list[Finding]]:
-    """The table with the speed that an answer derives from a position, by differences to both sides."""
+    """Table with the speed derived from an answered position, by central differences."""
     header = answers.get(SPEED_FROM)
     if header is None:
         return sheet, []

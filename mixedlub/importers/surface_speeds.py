@@ -1,4 +1,4 @@
-"""Speeds of single surfaces: neither the entrainment nor the sliding speed."""
+"""Speeds of single surfaces, which are neither entrainment nor sliding speed."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from mixedlub.schema.units import change_to, split, words_of
 from profiles.errors import InputError
 
 SIDES = (("1", "2"), ("a", "b"), ("disc", "ball"), ("disk", "ball"), ("lower", "upper"), ("scheibe", "kugel"))
-"""Words by which the speeds of two surfaces differ."""
+"""Words that distinguish the speeds of two surfaces."""
 SPEED = re.compile(r"speed|velocity|geschwindigkeit|^[uv]\W?(?:\d|\b)")
 EQUAL_WITHIN = 0.02
 """Relative difference from the mean speed up to which two surfaces move equally: beyond slip by creep alone."""
@@ -23,7 +23,7 @@ FROM_BOTH_SPEEDS = {
 
 
 def other_surface(header: str, cells: Cells) -> str | None:
-    """The header of the other surface's speed, where the table has both speeds and they differ.
+    """Header of the other surface's speed, if the table has both speeds and they differ.
 
     >>> other_surface("v1 (m/s)", {"v1 (m/s)": ["2.0", "4.0"], "v2 (m/s)": ["1.0", "2.0"], "mu": ["0.1", "0.2"]})
     'v2 (m/s)'
@@ -53,9 +53,9 @@ def _opposite(words: str) -> Iterator[str]:
 
 
 def refuse_one_surface(headers: Mapping[str, str], cells: Cells, name: str) -> None:
-    """An error where the speed of one surface was taken for that of the contact, and the table has both.
+    """Raise an error if the speed of one of two recorded surfaces is taken as the speed of the contact.
 
-    With one surface at rest the speed of the other is the sliding speed.
+    With one surface at rest, the speed of the other is the sliding speed.
 
     >>> cells = {"Disc Speed (m/s)": ["1.0", "2.0"], "Ball Speed (m/s)": ["0", "0"]}
     >>> refuse_one_surface({"entrainment_speed_m_s": "Ball Speed (m/s)"}, {"Ball Speed (m/s)": ["1.0"]}, "a.txt")
@@ -64,7 +64,7 @@ def refuse_one_surface(headers: Mapping[str, str], cells: Cells, name: str) -> N
     Traceback (most recent call last):
     ...
     profiles.errors.InputError: a.txt: entrainment_speed_m_s: 'Disc Speed (m/s)': is the speed of one surface; \
-entrainment is the mean with that of 'Ball Speed (m/s)': add a column of it to the file
+    entrainment is the mean with that of 'Ball Speed (m/s)': add a column of it to the file
     """
     for column, made in FROM_BOTH_SPEEDS.items():
         taken = headers.get(column)

@@ -1,4 +1,4 @@
-"""Tables in text: separator, header, units, rows, and the run numbers in them."""
+"""Tables in text: separator, header, units, rows and run numbers."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ UNIT = r"[(\[](?:[^()\[\]]|/\s*\([^()\[\]]*\))*[)\]]"
 WORD = re.compile(rf"(?:{UNIT}|\S)+")
 WORD_AND_UNIT = re.compile(rf"(?:\s*{UNIT}|\S)+")
 WORDS = re.compile(r"\S+(?:\s\S+)*")
-"""A cell between blanks: a word, a word and its unit, or words with single blanks between."""
+"""Cell between blanks: a word, a word and its unit, or words with single blanks between."""
 
 
 def rows_of(numbered: Sequence[tuple[int, str]], name: str, separator: str = "") -> list[Line]:
-    """The cells of numbered lines, separated by blanks only where no separator gives as many rows of numbers."""
+    """Cells of numbered lines; blanks separate only if they give more rows of numbers than any separator."""
     mark = separator or max(SEPARATORS, key=lambda mark: _regularity([line.count(mark) for _, line in numbered]))
     marked = [(number, [cell.strip() for cell in row]) for number, row in csv_rows(numbered, name, mark, headings=True)]
     if separator or not any(_tally(line.split())[0] for _, line in numbered if len(line.split(None, 1)) > 1):
@@ -45,7 +45,7 @@ def _regularity(counts: list[int]) -> int:
 
 
 def with_header(rows: Sequence[Line], lines: Mapping[int, str]) -> list[Line]:
-    """The rows with the words of the header separated by blanks where only the numbers below have separators.
+    """Rows with the header split at blanks, if only the numbers below have separators.
 
     >>> lines = {1: "Time Load", 2: "0\\t20", 3: "1\\t21"}
     >>> with_header([(1, ["Time Load"]), (2, ["0", "20"]), (3, ["1", "21"])], lines)[0]
@@ -62,7 +62,7 @@ def with_header(rows: Sequence[Line], lines: Mapping[int, str]) -> list[Line]:
 
 
 def _by_blanks(numbered: Sequence[tuple[int, str]]) -> list[Line]:
-    """Rows of numbers split at blanks; other lines split so that they get as many cells, where that is possible."""
+    """Rows of numbers split at blanks; other lines are split into equally many cells if possible."""
     plain = [line.split() for _, line in numbered]
     width = common_length([row for row in plain if _tally(row)[0]])
     rows = []
@@ -75,7 +75,7 @@ def _by_blanks(numbered: Sequence[tuple[int, str]]) -> list[Line]:
 
 
 def _readable(rows: Sequence[Line]) -> tuple[int, int]:
-    """How many rows of the most common length hold nothing but numbers, and how many hold mostly numbers."""
+    """Numbers of rows of the most common length with only numbers, and with mostly numbers."""
     tallies = [(len(row), *_tally(row)) for _, row in rows]
     mostly = Counter(length for length, most, _ in tallies if most)
     width, n_rows = max(mostly.items(), key=lambda item: item[1], default=(0, 0))
@@ -83,7 +83,7 @@ def _readable(rows: Sequence[Line]) -> tuple[int, int]:
 
 
 def _tally(row: Sequence[str]) -> tuple[bool, bool]:
-    """Whether a row holds mostly numbers, at least two; whether it holds nothing else."""
+    """Whether a row holds mostly numbers, at least two; whether it holds only numbers."""
     numbers = sum(map(is_written_number, row))
     filled = sum(map(bool, row))
     most = numbers > 1 and 2 * numbers > filled
@@ -91,34 +91,34 @@ def _tally(row: Sequence[str]) -> tuple[bool, bool]:
 
 
 ONLY = "import.only."
-"""Prefix of a header in the answer that names the value of the rows to keep, or a list of values."""
+"""Prefix of a header in the answer with the value, or list of values, of the rows to keep."""
 VALUES_LISTED = 20
-"""Values of a column that an error lists at most."""
+"""Most values of a column listed in an error."""
 Cells = Mapping[str, Sequence[str]]
 NUMBERS_SHOWN = 3
-"""Numbers in a header that an error lists at most."""
+"""Most numbers of a header listed in an error."""
 
 
 class TextColumn(list[str]):
-    """The cells of a column, not to be changed; whether they are numbers is determined once."""
+    """Immutable cells of a column; whether they are numbers is determined once."""
 
     @cached_property
     def numeric(self) -> bool:
-        """Whether every cell that is filled is a number."""
+        """Whether every filled cell is a number."""
         return are_numbers(self)
 
     @cached_property
     def values(self) -> np.ndarray:
-        """The numbers in the cells; nan where a cell holds none."""
+        """Numbers in the cells; nan for other cells."""
         return np.array([float(cell) if is_number(cell) else np.nan for cell in self])
 
 
 @dataclass(frozen=True)
 class Sheet:
-    """The cells of a table by header, the line of each row, which lines are outside the table, and notes.
+    """Cells of a table by header, line of each row, lines outside the table, and notes.
 
-    ``repeated`` says which lines repeat the header, ``summaries`` which rows of means or sums are left out. ``faults``
-    are cells that show a spreadsheet's error or an infinite number, by header and line; in ``cells`` they are empty.
+    ``repeated``: text on repeated headers; ``summaries``: text on omitted rows of means or sums; ``faults``: cells with
+    a spreadsheet error or an infinite number, by header and line, which are empty in ``cells``.
     """
 
     name: str
@@ -132,10 +132,10 @@ class Sheet:
 
 
 def read_sheet(text: str, name: str, decimal: str | None = None, separator: str = "") -> Sheet:
-    """The longest table of a text: rows of equal length under a header without numbers.
+    """Longest table of a text: rows of equal length under a header without numbers.
 
-    Lines before and after the table are left out; a row of another length within it is an error. ``decimal`` is the
-    decimal mark, where an answer names it; ``separator`` parts the cells, where it is known.
+    Lines before and after the table are left out; a row of another length within it is an error. ``decimal``: decimal
+    mark from an answer; ``separator``: separator of cells, if known.
     """
     numbered = [
         (number, line)
@@ -159,7 +159,7 @@ def read_sheet(text: str, name: str, decimal: str | None = None, separator: str 
 
 
 def complete_rows(sheet: Sheet, needed: Sequence[str]) -> tuple[Sheet, list[str]]:
-    """The rows without a missing cell in the needed columns, and a note for every column that loses rows."""
+    """Rows without missing cells in the needed columns, and a note for every column that loses rows."""
     missing = {h: [i for i, cell in enumerate(sheet.cells[h]) if is_missing(cell)] for h in needed}
     if not any(missing.values()):
         return sheet, []
@@ -180,7 +180,7 @@ def complete_rows(sheet: Sheet, needed: Sequence[str]) -> tuple[Sheet, list[str]
 
 
 def _faults_of(sheet: Sheet, header: str) -> str:
-    """What stands in the cells of a column that are no numbers, and the way out."""
+    """Text on cells without a number, and a remedy."""
     texts = list(dict.fromkeys(sheet.faults.get(header, {}).values()))
     if UNCALCULATED in texts:
         return (
@@ -191,22 +191,22 @@ def _faults_of(sheet: Sheet, header: str) -> str:
 
 
 def is_numeric(cells: Sequence[str]) -> bool:
-    """Whether a column is one of numbers and empty cells."""
+    """Whether a column holds only numbers and empty cells."""
     return cells.numeric if isinstance(cells, TextColumn) else are_numbers(cells)
 
 
 def values_of(cells: Sequence[str]) -> np.ndarray:
-    """The numbers in cells; nan where a cell holds none."""
+    """Numbers in cells; nan for other cells."""
     return (cells if isinstance(cells, TextColumn) else TextColumn(cells)).values
 
 
 def only_keys(answers: Answers) -> tuple[str, ...]:
-    """The answers that select rows, and the form they have."""
+    """Keys of the answers that select rows, and their form."""
     return (f"{ONLY}COLUMN", *(key for key in answers if key.startswith(ONLY)))
 
 
 def selected_rows(sheet: Sheet, answers: Answers) -> tuple[Sheet, list[str]]:
-    """The rows that the answers select, and a note for each selection."""
+    """Rows selected by the answers, and a note on each selection."""
     notes = []
     for key, value in answers.items():
         if not key.startswith(ONLY):
@@ -228,7 +228,7 @@ def selected_rows(sheet: Sheet, answers: Answers) -> tuple[Sheet, list[str]]:
 
 
 def _cell_equals(cell: str, value: Any) -> bool:
-    """Whether a cell is the value of an answer, or lies in its range.
+    """Whether a cell equals the value of an answer or lies in its range.
 
     >>> [_cell_equals(cell, "273..400") for cell in ("300", "680", "hot")], _cell_equals("20.0", 20)
     ([True, False, False], True)
@@ -240,7 +240,7 @@ def _cell_equals(cell: str, value: Any) -> bool:
 
 
 def not_above_zero(quantity: str, values: Iterable[float], lines: Iterable[int]) -> list[str]:
-    """A note on readings at zero or below, as noise or a channel that is not on yet gives them.
+    """Note on readings at or below zero, from noise or a channel not yet switched on.
 
     >>> not_above_zero("friction_coefficient", [0.0, 0.1], [2, 3])
     ['1 reading of friction_coefficient at zero or below, taken as read: line 2']
@@ -251,7 +251,7 @@ def not_above_zero(quantity: str, values: Iterable[float], lines: Iterable[int])
 
 
 def _table_rows(rows: Sequence[Line], name: str) -> tuple[int, int]:
-    """First row of data and their end: the longest run of rows of the same length as the header above."""
+    """First and end row of the data: the longest run of rows of the same length as the header above."""
     best = (0, 0)
     numbers = [_numbers(row) for _, row in rows]
     words = [not n and sum(map(bool, row)) > 1 for n, (_, row) in zip(numbers, rows, strict=True)]
@@ -279,7 +279,7 @@ def _table_rows(rows: Sequence[Line], name: str) -> tuple[int, int]:
 
 
 def _refuse_numbers_above(rows: Sequence[Line], name: str) -> None:
-    """A first line of numbers is no header: the names are missing, or each row and not each column is a quantity."""
+    """Raise an error if the first line holds numbers: the names are missing, or quantities are in rows."""
     number, first = rows[0]
     values = [cell for cell in first if is_number(cell)]
     if len(values) == len(first) and _numbers(rows[1][1]):
@@ -295,7 +295,7 @@ def _refuse_numbers_above(rows: Sequence[Line], name: str) -> None:
 
 
 def _refuse_other_rows(before: Sequence[Line], after: Sequence[Line], width: int, name: str) -> None:
-    """Rows of numbers outside the table would be lost data: a row of another length, or another table."""
+    """Raise an error for rows of numbers outside the table, which would be lost: uneven rows or another table."""
     if any(_numbers(row) > 1 for _, row in after):
         number, row = after[0]
         rule = _uneven(width) if len(row) != width else "begins another table; put one table in a file"
@@ -327,7 +327,7 @@ ANEW = "so readings are renumbered from 1"
 
 
 def header_of_runs(sheet: Sheet, answers: Answers) -> str | None:
-    """The header of the run numbers."""
+    """Header of the run numbers."""
     named = answers.get(RUN_KEY)
     if named is not None and str(named) not in sheet.cells:
         raise InputError(f"no such header; {nearest(str(named), sheet.cells)}", where=RUN_KEY, value=named)
@@ -338,7 +338,7 @@ def header_of_runs(sheet: Sheet, answers: Answers) -> str | None:
 
 
 def runs_of(sheet: Sheet, header: str) -> tuple[np.ndarray | None, str | None]:
-    """The run numbers where they are whole and unique; else None, and the reason."""
+    """Run numbers if whole and unique; else None and the reason."""
     line_of: dict[int, int] = {}
     for line, cell in zip(sheet.lines, sheet.cells[header], strict=True):
         number = _whole(cell)
@@ -351,7 +351,7 @@ def runs_of(sheet: Sheet, header: str) -> tuple[np.ndarray | None, str | None]:
 
 
 def joined_runs(parts: Sequence[tuple[str, np.ndarray | None]]) -> tuple[np.ndarray | None, str | None]:
-    """The run numbers of several files; None where a file has none, or where a number is in two files."""
+    """Run numbers of several files; None if a file has none or a number is in two files."""
     numbered = [(name, runs) for name, runs in parts if runs is not None]
     if len(numbered) < len(parts):
         absent = next(name for name, runs in parts if runs is None)

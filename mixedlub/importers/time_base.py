@@ -1,4 +1,4 @@
-"""Time in seconds: from cycles or a distance, and continued where a clock restarts."""
+"""Time in seconds from cycles or a distance, continued across restarts of a clock."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ NO_UNIT = (*COUNTED, "-", "1")
 
 @dataclass(frozen=True)
 class Pace:
-    """What turns a count into seconds: key of the answer, question, example, and the words of the note."""
+    """Conversion of a count to seconds: key of the answer, question, example, and text of the note."""
 
     key: str
     text: str
@@ -51,12 +51,12 @@ PACES: Mapping[str, Pace] = {
         "{header!r} over {rate:g} m/s",
     ),
 }
-"""By the unit of the count."""
+"""Conversions by the unit of the count."""
 PACE_KEYS = tuple(pace.key for pace in PACES.values())
 
 
 def unit_of_count(header: str) -> str | None:
-    """The unit of a header that may be a time; a count of cycles without a unit has the unit cycle.
+    """Unit of a header that may be a time; "cycle" for a count of cycles without a unit.
 
     >>> unit_of_count("Cycle"), unit_of_count("No. of cycles [-]"), unit_of_count("Distance (km)"), unit_of_count("t")
     ('cycle', 'cycle', 'km', None)
@@ -67,7 +67,7 @@ def unit_of_count(header: str) -> str | None:
 
 
 def counted(header: str) -> str | None:
-    """What a header counts instead of time: cycles or metres.
+    """Unit of a header that counts cycles or metres in place of time, or None.
 
     >>> [counted(h) for h in ("Cycles", "Sliding distance [m]", "Distance", "Stroke (mm)", "Cycle time (s)")]
     ['cycle', 'm', 'm', None, None]
@@ -80,24 +80,24 @@ def counted(header: str) -> str | None:
 
 
 def header_of_count(cells: Cells) -> str | None:
-    """The header that counts cycles or a distance."""
+    """Header of a count of cycles or a distance."""
     return next((h for h in cells if counted(h) is not None and is_numeric(cells[h])), None)
 
 
 def headers_in_time(cells: Cells) -> list[str]:
-    """The headers of numbers in a unit of time, whatever their names."""
+    """Headers of numbers in a unit of time, of any name."""
     in_time = [h for h in cells if fits(split(h)[1] or "", BY_NAME[TIME].unit)]
     return [h for h in in_time if is_numeric(cells[h])]
 
 
 def target_in(target: Target, unit: str) -> Target:
-    """The target in the family of a unit; a time may be counted in cycles or metres, a viscosity be kinematic."""
+    """Target with the unit for conversion: time may be counted in cycles or metres, viscosity may be kinematic."""
     counts = (f for f in PACES if target.name == TIME and change_to(unit, f) is not None)
     return replace(target, unit=next(counts, family(target, unit)))
 
 
 def pace_questions(headers: Mapping[str, str], units: Mapping[str, str], answers: Answers) -> list[Question]:
-    """The question for seconds a cycle or for the speed; an error about an answer that the time does not need."""
+    """Question on seconds per cycle or speed; raise an error for an answer without use."""
     header = headers.get(TIME)
     if header is None or not (header == TIME or TIME in units):
         return []
@@ -113,7 +113,7 @@ def pace_questions(headers: Mapping[str, str], units: Mapping[str, str], answers
 
 
 def in_seconds(values: np.ndarray, header: str, unit: str, answers: Answers) -> tuple[np.ndarray, str]:
-    """A count converted to seconds, and a note on how; a time is returned as it is, without a note."""
+    """Count converted to seconds, and a note; a time is returned unchanged without a note."""
     family = target_in(BY_NAME[TIME], unit).unit
     if family not in PACES:
         return values, ""
@@ -125,14 +125,14 @@ def in_seconds(values: np.ndarray, header: str, unit: str, answers: Answers) -> 
 
 
 STEPS = re.compile(r"\b(?:step|cycle|segment|stage|phase|interval|block|schritt|stufe|abschnitt|zyklus)s?\b")
-"""Words of a column that numbers the steps of a test."""
+"""Words of a column with the step numbers of a test."""
 DATES = "import.dates"
 RESTART_BELOW = 0.1
-"""Share of the elapsed time within which a falling clock has restarted; one that falls less runs backwards."""
+"""Share of the elapsed time within which a falling clock has restarted; otherwise it runs backwards."""
 
 
 def date_order(answers: Answers) -> str | None:
-    """The order of day and month that the answers name."""
+    """Order of day and month from the answers."""
     order = answers.get(DATES)
     if order is not None and order not in ORDERS:
         raise InputError(f"must be {' or '.join(map(repr, ORDERS))}", where=DATES, value=order)
@@ -142,9 +142,9 @@ def date_order(answers: Answers) -> str | None:
 def continued(
     times: np.ndarray, header: str, sheet: Sheet, named_order: str | None = None
 ) -> tuple[np.ndarray, list[Finding]]:
-    """Time continued where its clock restarts, and a note on how; no note where it never falls.
+    """Time continued across restarts of its clock, and a note; no note if the clock never falls.
 
-    ``named_order`` is the order of day and month that an answer names.
+    ``named_order``: order of day and month from an answer.
     """
     falls = np.flatnonzero(np.diff(times) < 0.0) + 1
     if not falls.size:
@@ -180,7 +180,7 @@ def continued(
 
 
 def joined_times(parts: Sequence[tuple[str, np.ndarray]]) -> tuple[np.ndarray, list[Finding]]:
-    """The times of several files in sequence; a clock that restarts is continued from the file before."""
+    """Times of several files in sequence; a restarted clock continues from the previous file."""
     (file_before, first), *rest = parts
     joined = [first]
     notes: list[Finding] = []
@@ -196,7 +196,7 @@ def joined_times(parts: Sequence[tuple[str, np.ndarray]]) -> tuple[np.ndarray, l
 
 
 def _numbers_steps(cells: Sequence[str], falls: np.ndarray) -> bool:
-    """Whether a column changes wherever the clock falls, and never back to an earlier value."""
+    """Whether a column changes at every fall of the clock, and never back to an earlier value."""
     changes = [i for i in range(1, len(cells)) if cells[i] != cells[i - 1]]
     return set(falls.tolist()) <= set(changes) and len(changes) == len(set(cells)) - 1
 
@@ -211,7 +211,7 @@ def _restarts(times: np.ndarray, falls: np.ndarray) -> bool:
 def _by_dates(
     times: np.ndarray, cells: Sequence[str], falls: np.ndarray, named_order: str | None
 ) -> Iterator[tuple[str, np.ndarray, str]]:
-    """For each order of day and month the time continued by the dates of a column, and the words for how."""
+    """Time continued by the dates of a column, for each order of day and month, with a text on the method."""
     for order, stamps in moments(cells).items():
         if named_order in ORDERS and order not in ("", named_order):
             continue
@@ -224,7 +224,7 @@ def _by_dates(
 
 
 def _by_clock(times: np.ndarray, dates: np.ndarray, falls: np.ndarray, within: float) -> np.ndarray | None:
-    """Each step placed by a clock that runs with the rows; None where the column is no such clock."""
+    """Steps placed by a clock that runs with the rows; None for a column without such a clock."""
     steps = np.split(np.arange(times.size), falls)
     offset = dates - times
     if any(np.ptp(offset[rows]) > within for rows in steps) or all(np.ptp(dates[rows]) == 0.0 for rows in steps):
@@ -234,9 +234,9 @@ def _by_clock(times: np.ndarray, dates: np.ndarray, falls: np.ndarray, within: f
 
 
 def _by_starts(times: np.ndarray, dates: np.ndarray, falls: np.ndarray, within: float) -> np.ndarray | None:
-    """Each step placed at its start; None where starts overlap beyond their resolution, or mark no steps.
+    """Steps placed at their starts; None if starts overlap beyond their resolution or do not mark steps.
 
-    A step shorter than the resolution may carry the start of the one before, and is continued from it.
+    A step shorter than the resolution may carry the start of the previous step, and is continued from it.
     """
     changes = np.flatnonzero(np.diff(dates) != 0.0) + 1
     begun = np.union1d(changes, falls)

@@ -17,12 +17,12 @@ WANTED = ("temperature_C", "viscosity_mPa_s", "time_s")
 
 
 def matches(text: str) -> bool:
-    """Whether the text is such an export: steps marked in brackets."""
+    """Whether the text is such an export, with steps marked in brackets."""
     return any(line.strip().lower() == "[step]" for line in text.splitlines()[:200])
 
 
 def draft(file: InputFile, answers: Answers) -> Draft:
-    """Viscosity against temperature and time, with the steps in sequence."""
+    """Draft of a case: viscosity against temperature and time, with the steps in sequence."""
     text, name = file.text, file.name
     refuse_unknown(answers, ())
     answered_kind(answers, ("viscosity",))
@@ -56,7 +56,7 @@ def draft(file: InputFile, answers: Answers) -> Draft:
 
 
 def _steps(text: str) -> list[dict[int, str]]:
-    """The lines of each step by their number in the file."""
+    """Lines of each step by line number in the file."""
     steps: list[dict[int, str]] = []
     for number, line in enumerate(text.splitlines(), start=1):
         if line.strip().lower() == "[step]":
@@ -67,7 +67,7 @@ def _steps(text: str) -> list[dict[int, str]]:
 
 
 def _read(step: dict[int, str], name: str) -> tuple[dict[str, np.ndarray], list[int]]:
-    """Columns of one step in the units of a case (title, headers, units, rows); rows that lack a value are left out."""
+    """Columns of a step in case units (title, headers, units, rows), and lines left out for missing values."""
     lines = list(step.values())
     headers, units = (line.split("\t") for line in lines[1:3])
     rows = {number: line.split("\t") for number, line in list(step.items())[3:]}

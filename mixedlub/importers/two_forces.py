@@ -1,4 +1,4 @@
-"""A friction coefficient that a table holds as two forces: the friction force divided by the load."""
+"""Friction coefficient from the friction force and load of a table."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from mixedlub.schema.units import change_to, split, words_of
 
 COEFFICIENT, SD, LOAD = "friction_coefficient", "friction_coefficient_sd", "load_N"
 FRICTION = re.compile(r"\b(?:friction|tangential|traction|reib)")
-"""Words of a force that is friction."""
+"""Words of a friction force."""
 LEAST_LOAD = 0.01
-"""Judgement. Load over the median of the loads, below which bodies do not touch: there a load cell shows its noise."""
+"""Judgement. Load over the median load below which bodies do not touch and the load cell shows noise."""
 
 
 def over_load(sheet: Sheet, answers: Answers) -> tuple[Sheet, Answers, list[Finding]]:
-    """The table with the coefficient in place of the friction force, what is then answered, and notes.
+    """Table with the coefficient in place of the friction force, remaining answers, and notes.
 
-    The standard deviation of the force, where an answer names it, is divided too. All as they are, without notes, where
-    the table has a coefficient, or not one friction force and one load in units of force.
+    An answered standard deviation of the force is divided too. Without change or notes if the table has a coefficient,
+    or not exactly one friction force and one load in units of force.
     """
     force = _friction_force(sheet.cells, answers)
     load = None if force is None else _load(sheet, force, answers)
@@ -51,7 +51,7 @@ def over_load(sheet: Sheet, answers: Answers) -> tuple[Sheet, Answers, list[Find
 
 
 def _divided(sheet: Sheet, header: str, unit: str, loads: np.ndarray) -> TextColumn:
-    """A force divided by the load, empty in rows without load."""
+    """Force over load, empty in rows without load."""
     newtons = convert(values_of(sheet.cells[header]), unit, BY_NAME[LOAD], header)
     # Loads that are all negative are refused as such later.
     pressed = loads[loads > 0.0]
@@ -61,13 +61,13 @@ def _divided(sheet: Sheet, header: str, unit: str, loads: np.ndarray) -> TextCol
 
 
 def _unit(header: str, column: str, answers: Answers) -> str:
-    """The unit of a force, by answer or by header; empty where neither tells one."""
+    """Unit of a force from answer or header, or empty."""
     unit = str(answers.get(UNIT_KEYS + column) or split(header)[1] or "")
     return unit if unit and change_to(unit, "N") is not None else ""
 
 
 def _friction_force(cells: Cells, answers: Answers) -> str | None:
-    """The header of the friction force; None where there are several, or a coefficient."""
+    """Header of the friction force; None if it is not unique or the table has a coefficient."""
     named = answers.get(COLUMNS + COEFFICIENT)
     spoken = [h for h in cells if FRICTION.search(words_of(h)) and spread_of(h) is None] if named is None else [named]
     forces = [h for h in spoken if h in cells and is_numeric(cells[h]) and _unit(h, COEFFICIENT, answers)]
@@ -78,7 +78,7 @@ def _friction_force(cells: Cells, answers: Answers) -> str | None:
 
 
 def _load(sheet: Sheet, force: str, answers: Answers) -> tuple[np.ndarray, str] | None:
-    """The load of each row in newtons, and what it is called; None where no header or several are it."""
+    """Load of each row (N) and its name; None without a unique header."""
     constant: Any = answers.get(VALUES + LOAD)
     if isinstance(constant, int | float):
         return np.full(len(sheet.lines), float(constant)), f"the load of {constant:g} N"

@@ -1,4 +1,4 @@
-"""What instruments call the columns of a case: words of headers, and units as they are written there."""
+"""Instrument names of the columns of a case: words and units in headers."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from mixedlub.schema.units import change_to, fits, is_unit, open_units, read_as,
 from profiles.errors import InputError
 
 WEIGHED = {"g": "grams-force of 9.80665 mN", "kg": "kilograms-force of 9.80665 N"}
-"""Units of mass that a load is given in, and what they then are."""
+"""Units of mass of a load, and their meaning as a force."""
 
 
 @dataclass(frozen=True)
 class Target:
-    """A column of a case, its unit, the headers under which instruments write it, and others that may mean it."""
+    """Column of a case with its unit, its headers in instrument files, and further possible headers."""
 
     name: str
     unit: str
@@ -34,7 +34,7 @@ TEXT_COLUMNS = tuple(c.name for c in _COLUMNS.values() if c.dtype == "name")
 
 
 def target_of(header: str) -> Target | None:
-    """The column that a header means, by the words instruments use; an exact column name is itself."""
+    """Column denoted by a header, by exact column name or instrument words."""
     if header.strip() in BY_NAME:
         return BY_NAME[header.strip()]
     words = words_of(header)
@@ -42,12 +42,12 @@ def target_of(header: str) -> Target | None:
 
 
 def is_kinematic(unit: str | None) -> bool:
-    """Whether a unit is one of kinematic viscosity, in which viscosity is divided by density."""
+    """Whether a unit is of kinematic viscosity, viscosity divided by density."""
     return unit is not None and change_to(unit, "mm2_s") is not None
 
 
 def family(target: Target, unit: str) -> str:
-    """The unit of a column, or that of a kinematic viscosity which density turns into it.
+    """Unit of a column, or the kinematic viscosity unit convertible to it by density.
 
     >>> family(BY_NAME["viscosity_mPa_s"], "cSt"), family(BY_NAME["viscosity_mPa_s"], "cP")
     ('mm2_s', 'mPa_s')
@@ -56,7 +56,7 @@ def family(target: Target, unit: str) -> str:
 
 
 def is_of_another(unit: str, target: Target) -> bool:
-    """Whether a unit is one of another quantity than a column's; a kinematic viscosity is still one of viscosity.
+    """Whether a unit belongs to a quantity other than the column's; kinematic viscosity counts as viscosity.
 
     >>> is_of_another("mPa s", BY_NAME["friction_coefficient"]), is_of_another("mm2/s", BY_NAME["viscosity_mPa_s"])
     (True, False)
@@ -67,7 +67,7 @@ def is_of_another(unit: str, target: Target) -> bool:
 
 
 def unknown_unit(unit: str, target: Target) -> str:
-    """Why a unit is not taken as that of a column, and what could be."""
+    """Reason for rejecting a unit of a column, and possible units."""
     candidates = open_units(unit, target.unit)
     if candidates:
         return f"as unit of {target.name} leaves open which is meant; say {' or '.join(candidates)}"
@@ -79,7 +79,7 @@ def unknown_unit(unit: str, target: Target) -> str:
 
 
 def convert(values: np.ndarray, unit: str, target: Target, where: str) -> np.ndarray:
-    """Values in the unit of the target's column, free of the last digits that only conversion made.
+    """Values in the unit of the target's column, without spurious last digits from conversion.
 
     >>> convert(np.array([1.5]), "mm/s", BY_NAME["entrainment_speed_m_s"], "file").tolist()
     [0.0015]

@@ -1,4 +1,4 @@
-"""Instrument files to a case folder: questions for missing facts, or a list of them where nobody can answer."""
+"""Import of instrument files into a case folder, with questions for missing facts or an error that lists them."""
 
 from __future__ import annotations
 
@@ -38,22 +38,22 @@ from mixedlub.schema.findings import Finding, Severity, finding, of_severity, re
 from profiles.errors import InputError, nearest
 
 RAW_FROM = 2000
-"""Readings in time from which a recording is raw rather than averaged."""
+"""Readings in time at which a recording is raw rather than averaged."""
 NAMES_SHOWN = 4
-"""Different names of a column that the summary lists at most."""
+"""Most different names of a column listed in the summary."""
 
 Step = Callable[[str], None]
-"""Called with what is being done, and with nothing when it is done."""
+"""Callback at the start of a task with its name, and at the end with an empty text."""
 
 READERS: tuple[ModuleType, ...] = (pcs, trios, labview, plain)
-"""Tried in this order, after those that other packages offer as ``mixedlub.importers``; any text is a plain table."""
+"""Readers in order of trial, after readers of other packages (``mixedlub.importers``); any text is a plain table."""
 STEPS = ("reading files", "reading tables", "writing the case", "checking the case")
 
 SCHEMA = "mixedlub-case/1"
 
 
 def read(files: Sequence[InputFile], answers: Answers) -> Draft:
-    """The joint draft of all files; files of one case must be of the same kind and hold the same columns."""
+    """Joint draft of all files, which must be of the same kind with the same columns."""
     if not files:
         raise InputError("name at least one file", where="import")
     drafts = [_read_one(file, answers) for file in files]
@@ -93,10 +93,10 @@ def _read_one(file: InputFile, answers: Answers) -> Draft:
 
 
 def import_files(files: Sequence[Path], out: Path, *, overwrite: bool = False, **answers: Any) -> Path:
-    """A case folder from instrument files; ``answers`` are tables or dotted keys as in system.toml.
+    """Write a case folder from instrument files; ``answers``: tables or dotted keys as in system.toml.
 
-    Missing answers are an error that lists them; nothing is guessed. A case that exists and differs is an error
-    too, unless ``overwrite`` is true.
+    Missing answers are an error that lists them; nothing is guessed. An existing case with differences is an error too,
+    unless ``overwrite`` is true.
     """
     opened, given = _opened(files, flat(answers))
     draft = read(opened, given)
@@ -119,10 +119,10 @@ def run(
     overwrite: bool = False,
     step: Step = lambda doing: None,
 ) -> Path:
-    """The import command: settings ``KEY=VALUE`` and a TOML file first, then ``ask`` for what is missing.
+    """Run the import command: first settings ``KEY=VALUE`` and a TOML file, then ``ask`` for missing answers.
 
-    ``ask`` is None where nobody can answer; then missing answers are an error that lists them. ``step`` is called
-    at the start of each of the STEPS, and with an empty text before a question.
+    Without ``ask``, missing answers are an error that lists them. ``step`` is called at the start of each of the STEPS,
+    and with an empty text before a question.
     """
     answers = flat(toml_file.read_toml(answers_file)) if answers_file is not None else {}
     answers.update(parse_setting(s) for s in settings)
@@ -159,7 +159,7 @@ def run(
 
 
 def _line(note: Finding) -> str:
-    """A finding as the command prints it: one on how a file was read has no mark."""
+    """Finding as printed by the command: without severity for a note."""
     return str(note) if note.severity is Severity.NOTE else f"{note.severity}: {note}"
 
 
@@ -169,7 +169,7 @@ def _warnings(draft: Draft) -> tuple[Finding, ...]:
 
 
 def _opened(files: Sequence[Path], answers: Answers) -> tuple[list[InputFile], dict[str, Any]]:
-    """The files of readings, and the answers with the table of load shares that may be among the files."""
+    """Files of readings, and answers with a table of load shares among the files."""
     opened = [(path, open_file(path, answers)) for path in files]
     shares = [path for path, file in opened if is_share(file.text)]
     if SHEET in answers and not any(file.is_workbook for _, file in opened):
@@ -180,7 +180,7 @@ def _opened(files: Sequence[Path], answers: Answers) -> tuple[list[InputFile], d
 def _with_replies(
     files: Sequence[InputFile], answers: dict[str, Any], draft: Draft, ask: Ask, say: Say
 ) -> tuple[dict[str, Any], Draft]:
-    """The answers and the draft after every question was put once, needed ones first."""
+    """Answers and draft after every question was asked once, needed questions first."""
     asked: set[str] = set()
     while waiting := [q for q in draft.questions if q.key not in answers and q.key not in asked]:
         question = next((q for q in waiting if q.needed), waiting[0])
@@ -192,7 +192,7 @@ def _with_replies(
 def _answered(
     files: Sequence[InputFile], answers: dict[str, Any], draft: Draft, question: Question, ask: Ask, say: Say
 ) -> tuple[dict[str, Any], Draft]:
-    """The answers with one more, unless it is left open, and their draft; after a wrong answer the question repeats."""
+    """Answers and draft after a question, which repeats after a wrong answer; unchanged if it is left open."""
     refused: dict[str, Mapping[str, Any]] = {}
     while True:
         reply = ask_for(question, ask, say)
@@ -216,7 +216,7 @@ def _answered(
 
 
 def _summary(draft: Draft, answers: Answers) -> Iterator[str]:
-    """Kind, rows and ranges of what will be written, and what was left open with the setting for each."""
+    """Lines with kind, rows and ranges of the case to be written, and settings for open questions."""
     rows = len(next(iter(draft.columns.values())))
     yield f"{draft.kind}: {rows} rows, reading {draft.quantity}"
     width = max(map(len, draft.columns))
@@ -229,7 +229,7 @@ def _summary(draft: Draft, answers: Answers) -> Iterator[str]:
 
 
 def _range(values: np.ndarray) -> str:
-    """Smallest and largest number of a column, or its names.
+    """Range of a numeric column, or its names.
 
     >>> _range(np.array([50.0, 100.5, np.nan])), _range(np.array(["a", "b", "a"]))
     ('50 to 100.5', 'a, b')
@@ -242,7 +242,7 @@ def _range(values: np.ndarray) -> str:
 
 
 def _folders(answers_file: Path | None, files: Sequence[Path], out: Path) -> list[Path]:
-    """Folders in which a file that the answers name is looked for."""
+    """Folders to search for files named in the answers."""
     beside = [path.parent for path in (*([answers_file] if answers_file else []), *files)]
     return list(dict.fromkeys([*beside, Path(), out]))
 
@@ -265,7 +265,7 @@ def _write(
     folders: Sequence[Path],
     step: Step = lambda doing: None,
 ) -> tuple[Path, str]:
-    """The case folder, and why diagnose would refuse it although check reads it."""
+    """Write the case folder; return it, and the reason if diagnose would reject a case that check reads."""
     step(STEPS[2])
     given, files = with_attachments(answers, folders)
     system: dict[str, Any] = {"kind": draft.kind, **given}

@@ -1,1 +1,1 @@
-"""The rig as objects in SI: gears, oil and surfaces built from the sections of a file."""
+"""The rig as objects in SI: gears, oil and surfaces from the sections of a file."""

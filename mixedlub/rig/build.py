@@ -1,4 +1,4 @@
-"""From the sections of `system.toml` to the objects that compute: lubricant and surfaces, in SI."""
+"""Lubricant and surfaces in SI from the sections of `system.toml`."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ if TYPE_CHECKING:
 LEAST_NAYAK = 1.5
 """Least m0 m4 / m2^2 of an isotropic Gaussian surface; Nayak 1971."""
 LONG_CUTOFF, SHORT_CUTOFF = 0.8e-3, 2.5e-6
-"""Cut-offs (m) of a map that states none; the middle row of ISO 3274."""
+"""Default cut-offs (m) of a map; the middle row of ISO 3274."""
 
 
 LEAST_SPAN = 30.0
-"""Judgement. Difference of two temperatures (K) below which rounding to 0.1 1/GPa would change the fall between."""
+"""Judgement. Temperature difference (K) below which rounding to 0.1 1/GPa would change the slope."""
 DEFAULT_BASE = "mineral"
-"""Base stock of an oil that names none: most gear oils are mineral."""
+"""Default base stock of an oil: most gear oils are mineral."""
 
 
 @cache
@@ -47,7 +47,7 @@ def named_bases() -> dict[str, dict[str, Any]]:
 
 
 def typical(section: system_file.Lubricant) -> dict[str, Any]:
-    """A typical oil of the base stock; its pressure-viscosity by Gold's relation at the viscosities of the section."""
+    """Typical oil of the base stock, with pressure-viscosity by Gold's relation at the viscosities of the section."""
     base = dict(named_bases()[section.base or DEFAULT_BASE])
     at = section.kinematic_viscosity_mm2_s or base["kinematic_viscosity_mm2_s"]
     gold = base.pop("gold")
@@ -59,9 +59,9 @@ def typical(section: system_file.Lubricant) -> dict[str, Any]:
 
 
 def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (), folder: Path = Path()) -> Lubricant:
-    """The oil; what the section leaves open comes from its base stock, with a warning that says so.
+    """Lubricant of a section; missing values come from the base stock, with a warning.
 
-    Keys that are ``unread`` in a kind of recording are not warned of. The file of an oil is relative to ``folder``.
+    ``unread``: keys without warning, not used by the kind of recording; ``folder``: location of an oil file.
     """
     section = section or system_file.Lubricant()
     _report_oil(section, folder)
@@ -106,7 +106,7 @@ def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (
 
 
 def _carried(oil: Lubricant, known: KnownCoefficient, base: str, unread: Collection[str]) -> Lubricant:
-    """The oil with its one known pressure-viscosity coefficient at other temperatures, which is said."""
+    """Oil with its one known pressure-viscosity coefficient extended to other temperatures, with a finding."""
     at, (_, power) = known.temperature_C, named_bases()[base]["gold"]
     found = oil.carrying(known.coefficient_per_GPa * 1e-9, at + ZERO_CELSIUS, known.carried, power)
     if "pressure_viscosity_per_GPa" not in unread:
@@ -124,7 +124,7 @@ def _carried(oil: Lubricant, known: KnownCoefficient, base: str, unread: Collect
 
 
 def _report_oil(section: system_file.Lubricant, folder: Path) -> None:
-    """What the section states against its named oil, and what that oil has of its class alone."""
+    """Report section values that differ from the named oil, and oil values only typical of its class."""
     if section.oil is None:
         return
     stated = section.model_dump()
@@ -143,14 +143,14 @@ def _report_oil(section: system_file.Lubricant, folder: Path) -> None:
 
 
 def traces(name: str, section: surface_file.SurfaceSection, folder: Path, key: str = "") -> tuple[Profile, ...]:
-    """The traces that a key of a surface names, by default those across its lay."""
+    """Traces named by a key of a surface, by default across its lay."""
     of_key = key or ("traces" if section.traces else "profile")
     named = getattr(section, key) if key else section.files
     return tuple(trace(name, section, one, folder, of_key) for one in named)
 
 
 def trace(name: str, section: surface_file.SurfaceSection, named: str, folder: Path, key: str = "profile") -> Profile:
-    """A trace that a surface names; what is wrong with it is said with the surface's name."""
+    """Trace named by a surface; errors name the surface."""
     from profiles.read import read
 
     place = f"surfaces.{name}"
@@ -169,7 +169,7 @@ def trace(name: str, section: surface_file.SurfaceSection, named: str, folder: P
 
 @contextmanager
 def _of_surface(name: str) -> Iterator[None]:
-    """Errors about a trace or its filters name the surface."""
+    """Add the surface to errors about a trace or its filters."""
     try:
         yield
     except InputError as error:
@@ -181,10 +181,10 @@ def _of_surface(name: str) -> Iterator[None]:
 
 
 def flank_profile(name: str, section: surface_file.SurfaceSection, trace: Profile) -> Profile:
-    """The roughness profile of a trace, prepared as `mixedlub profile` does.
+    """Roughness profile of a trace, prepared as by `mixedlub profile`.
 
-    Cut-offs that the section leaves out are those that the file says it was filtered with, else by ISO 4288 and ISO
-    3274. A short cut-off of fewer than two points is left out, as the trace does not show such waves.
+    Missing cut-offs are taken from the filters stated in the trace file, or else from ISO 4288 and ISO 3274. A short
+    cut-off of fewer than two points is left out, since the trace does not resolve such waves.
     """
     from roughness import evaluation_profile
 
@@ -217,7 +217,7 @@ def flank_profile(name: str, section: surface_file.SurfaceSection, trace: Profil
 
 
 def filtered(name: str, section: surface_file.SurfaceSection, raw: tuple[Profile, ...]) -> Traces:
-    """Traces with their roughness profiles; all have the cut-offs of the first, unless their files state their own."""
+    """Traces with roughness profiles; all have the cut-offs of the first unless their files state cut-offs."""
     first = flank_profile(name, section, raw[0])
     of_all = _with_cutoffs(section, first)
     with collected() as found:
@@ -228,14 +228,14 @@ def filtered(name: str, section: surface_file.SurfaceSection, raw: tuple[Profile
 
 
 def _with_cutoffs(section: surface_file.SurfaceSection, profile: Profile) -> surface_file.SurfaceSection:
-    """The section with the cut-offs that a profile has."""
+    """Section with the cut-offs of a profile."""
     used = {"cutoff_mm": ("cutoff", 1e3), "short_cutoff_um": ("short_cutoff", 1e6)}
     known = {key: profile.cutoffs[name] * scale for key, (name, scale) in used.items() if name in profile.cutoffs}
     return section.model_copy(update=known)
 
 
 def measured(name: str, section: surface_file.SurfaceSection, folder: Path, across: Traces | None) -> Measured:
-    """What was measured of a surface: its traces, of which those across the lay are given, or its map."""
+    """Measured traces, with given traces across the lay, or measured map of a surface."""
     if across is None:
         return Measured(area=flank_map(name, section, folder), isotropic=section.lay == "isotropic")
     if section.traces_along is None:
@@ -248,7 +248,7 @@ def measured(name: str, section: surface_file.SurfaceSection, folder: Path, acro
 def at_short_cutoff(
     name: str, section: surface_file.SurfaceSection, folder: Path, across: Traces | None, factor: float
 ) -> Measured | None:
-    """What was measured, at a multiple of its short cut-off; None where that is not resolved, or there is none."""
+    """Measured traces or map at a multiple of the short cut-off; None if it is not resolved or missing."""
     if across is None:
         short = SHORT_CUTOFF * 1e6 if section.short_cutoff_um is None else section.short_cutoff_um
         other = section.model_copy(update={"short_cutoff_um": factor * short})
@@ -270,7 +270,7 @@ def at_short_cutoff(
 
 
 def flank_map(name: str, section: surface_file.SurfaceSection, folder: Path) -> HeightMap:
-    """The roughness of a height map; cut-offs that the section leaves out are 0.8 mm and 2.5 um as far as they fit."""
+    """Roughness of a height map; default cut-offs are 0.8 mm and 2.5 um as far as they fit."""
     from profiles.image import read_map
     from roughness.areal import areal_roughness
 
@@ -305,7 +305,7 @@ def flank_map(name: str, section: surface_file.SurfaceSection, folder: Path) -> 
 
 
 def _check(name: str, across: Traces) -> None:
-    """Report what is doubtful about traces."""
+    """Report doubts about traces."""
     from roughness import moments
     from roughness.guards import trace_warnings
 
@@ -316,7 +316,7 @@ def _check(name: str, across: Traces) -> None:
 
 
 def surface(name: str, section: surface_file.SurfaceSection, found: Measured | None = None) -> Surface:
-    """One surface, from its moments or from what was measured."""
+    """Surface from its moments or from measured traces or map."""
     values: dict[str, float]
     if found is None:
         m0, m2, m4 = section.m0_um2 or 0.0, section.m2 or 0.0, section.m4_per_um2 or 0.0
@@ -349,7 +349,7 @@ def surface(name: str, section: surface_file.SurfaceSection, found: Measured | N
 
 
 def check_bandwidth(surface: Surface, section: surface_file.SurfaceSection) -> None:
-    """Refuse stated moments that no surface has; measured ones are flagged, as a trace may be coarsely sampled."""
+    """Raise an error for stated moments below Nayak's limit; traces may be sampled coarsely, and are flagged."""
     if not section.is_measured and surface.bandwidth < LEAST_NAYAK:
         rule = (
             f"Nayak's m0 m4 / m2^2 is {surface.bandwidth:.3g}, and no isotropic Gaussian surface has less than 1.5; "

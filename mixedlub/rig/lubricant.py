@@ -1,4 +1,4 @@
-"""The lubricant of a case: what is known of the oil, and its properties at a temperature."""
+"""Lubricant of a case: data of the oil and properties at a temperature."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ import numpy as np
 from mixedlub.laws import oil
 
 LINEAR, ROELANDS, GOLD = "linear", "roelands", "gold"
-"""Ways of the pressure-viscosity coefficient from its two values to other temperatures."""
+"""Extensions of the pressure-viscosity coefficient from its two values to other temperatures."""
 
 
 @dataclass(frozen=True)
 class Lubricant:
-    """An oil in SI: two points of kinematic viscosity, pressure-viscosity coefficient, density, heat.
+    """Oil in SI: two points of kinematic viscosity, pressure-viscosity coefficient, density, thermal properties.
 
-    The coefficient is ``carried`` to other temperatures: linear in temperature through its two values, at the exponent
-    of Roelands, or as the power of the kinematic viscosity through them.
+    ``carried``: extension of the coefficient to other temperatures, linear in temperature through its two values, at
+    the exponent of Roelands, or as a power of kinematic viscosity through the values.
     """
 
     name: str
@@ -43,9 +43,9 @@ class Lubricant:
         return nu * self.density(temperature)
 
     def carrying(self, coefficient: float, temperature: float, way: str, power: float) -> Lubricant:
-        """The oil with a pressure-viscosity coefficient (1/Pa) known at one temperature (K).
+        """Oil with a pressure-viscosity coefficient (1/Pa) known at one temperature (K).
 
-        ``power`` is the exponent of the kinematic viscosity in the relation of Gold.
+        ``power``: exponent of the kinematic viscosity in the relation of Gold.
 
         >>> oil = Lubricant("ester", (313.15, 373.15), (23e-6, 4.9e-6), (0, 0), 995.0, 8e-4, 5e6, 0.14, 2e3)
         >>> [round(alpha * 1e9, 1) for alpha in oil.carrying(14.2e-9, 327.15, "roelands", 0.0).pressure_viscosity]
@@ -60,7 +60,7 @@ class Lubricant:
         return replace(self, pressure_viscosity=(float(first), float(second)), carried=way)
 
     def pressure_coefficient(self, temperature: np.ndarray) -> np.ndarray:
-        """Pressure-viscosity coefficient (1/Pa), carried from its two values."""
+        """Pressure-viscosity coefficient (1/Pa), from its two values."""
         first = self.pressure_viscosity[0]
         if self.carried == ROELANDS:
             exponent = oil.roelands_exponent(self.viscosity(np.array(self.temperature[0])), first)
@@ -77,7 +77,7 @@ class Lubricant:
         return float(np.log(a1 / a2) / np.log(nu1 / nu2))
 
     def fall(self, temperature: np.ndarray) -> np.ndarray:
-        """Relative fall of the viscosity at ambient pressure (1/K)."""
+        """Relative decrease of the viscosity at ambient pressure (1/K)."""
         thinner = self.density_change * self.density_15 / self.density(temperature)
         return oil.temperature_viscosity(temperature, self.temperature, self.kinematic_viscosity) + thinner
 
@@ -98,12 +98,12 @@ class Lubricant:
         return np.log(oil.roelands_viscosity(viscosity, coefficient, pressure))
 
     def _linear(self, values: tuple[float, float], temperature: np.ndarray) -> np.ndarray:
-        """A property that is linear in temperature (K), by its values at the two known temperatures."""
+        """Property linear in temperature (K), from its values at the two known temperatures."""
         (t1, t2), (a1, a2) = self.temperature, values
         return a1 + (a2 - a1) * (temperature - t1) / (t2 - t1)
 
     def inputs(self, temperature: np.ndarray) -> dict[str, np.ndarray | float]:
-        """What the chain wants to know of the oil at a temperature (K), by glossary name."""
+        """Oil inputs of the chain at a temperature (K), by glossary name."""
         coefficient = self.pressure_coefficient(temperature)
         viscosity, known = self.viscosity(temperature), self.viscosity(np.array(self.temperature))
         return {
@@ -125,7 +125,7 @@ class Lubricant:
         }
 
     def _modulus(self, temperature: np.ndarray) -> dict[str, np.ndarray]:
-        """Constants of the modulus equation, where the oil has them."""
+        """Constants of the modulus equation, or empty."""
         if self.pressure_modulus is None or self.modulus_slope is None:
             return {}
         return {

@@ -1,4 +1,4 @@
-"""A surface as measured: its traces or its height map, filtered, with the scatter of the moments over the surface."""
+"""Measured surface: filtered traces or height map, with the scatter of moments over the surface."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ if TYPE_CHECKING:
     from roughness import Moments
 
 LEVEL = 0.9
-"""Probability with which a band of the scatter holds the true value."""
+"""Probability of the true value in a band of the scatter."""
 ACROSS, ALONG = ("m0", "m2", "m4"), ("m2_along", "m4_along")
 FEWEST = 3
-"""Fewest traces or sampling lengths whose scatter is known."""
+"""Fewest traces or sampling lengths for an estimate of scatter."""
 TILES = 3
-"""Parts a side of a map, whose scatter is that of the map."""
+"""Parts per side of a map; their scatter is the scatter of the map."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,14 +35,14 @@ class Traces:
 
     @property
     def moments(self) -> Moments:
-        """The mean of their moments."""
+        """Mean of the moments."""
         from roughness import moments
         from roughness.lay import mean_moments
 
         return mean_moments([moments(one) for one in self.filtered])
 
     def samples(self) -> np.ndarray:
-        """m0, m2 and m4 of each trace; of the sampling lengths of all where there are fewer than three traces."""
+        """m0, m2 and m4 of each trace; with fewer than three traces, of each sampling length."""
         from roughness import moments
         from roughness.parameters import section_count
 
@@ -59,7 +59,7 @@ def _cut(profile: Profile, count: int) -> list[Profile]:
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """What was measured of a surface: traces across (or in one direction), traces along, or a filtered map."""
+    """Measured data of a surface: traces across (or in one direction), traces along, or a filtered map."""
 
     across: Traces | None = None
     along: Traces | None = None
@@ -67,7 +67,7 @@ class Measured:
     isotropic: bool = False
 
     def values(self) -> Mapping[str, float]:
-        """The moments by the fields of a surface; those along the lay only where they are known."""
+        """Moments by the fields of a surface, along the lay only if known."""
         if self.area is not None:
             return self._of_map(self.area)
         assert self.across is not None
@@ -92,7 +92,7 @@ class Measured:
         return ra / self.across.moments.m0**0.5
 
     def axes(self, name: str) -> tuple[Mapping[str, float], ...]:
-        """Changes of the logarithms of the moments at the ends of the band of their scatter, one an axis."""
+        """Changes of the logarithms of the moments at the ends of their scatter bands, by axis."""
         from roughness.lay import mean_axes
 
         groups: list[tuple[Sequence[str], np.ndarray, np.ndarray | float]] = []
@@ -127,7 +127,7 @@ class Measured:
         return areal_moments(self.area).across_lay
 
     def _of_map(self, area: HeightMap) -> Mapping[str, float]:
-        """Moments of a map or a part of it, across and along its lay; without a lay the means of both directions."""
+        """Moments of a map or part of it, across and along its lay; without a lay, means of both directions."""
         from roughness.areal import areal_moments
 
         found = areal_moments(area)
@@ -137,7 +137,7 @@ class Measured:
         return {"m0": across.m0, "m2": across.m2, "m4": across.m4, "m2_along": along.m2, "m4_along": along.m4}
 
     def _least_scatter(self, area: HeightMap) -> np.ndarray:
-        """Relative standard deviations of `_of_map` if heights were Gaussian: parts that share waves scatter less."""
+        """Relative standard deviations of `_of_map` for Gaussian heights: parts with common waves scatter less."""
         from roughness.areal import gaussian_scatter
 
         across, along = self._angle, self._angle + 0.5 * np.pi
@@ -147,11 +147,11 @@ class Measured:
 
     @property
     def by_lengths(self) -> bool:
-        """Whether the scatter is that of sampling lengths, as there are too few traces."""
+        """Whether the scatter is of sampling lengths, since traces are too few."""
         return any(one is not None and len(one.filtered) < FEWEST for one in (self.across, self.along))
 
     def profile(self) -> Profile:
-        """All filtered heights across the lay as one profile; of a map, its longest trace across the lay."""
+        """Filtered heights across the lay as one profile; for a map, its longest trace across the lay."""
         if self.area is not None:
             from profiles.image import along_direction
 
@@ -164,7 +164,7 @@ class Measured:
         return replace(first, heights=heights, valid=np.concatenate([one.valid for one in self.across.filtered]))
 
     def heights(self) -> np.ndarray:
-        """All filtered heights: of the map, or of the traces across the lay (m)."""
+        """Filtered heights of the map or of the traces across the lay (m)."""
         if self.area is not None:
             return self.area.heights[np.isfinite(self.area.heights)]
         profile = self.profile()
@@ -172,12 +172,12 @@ class Measured:
 
     @property
     def steps(self) -> tuple[str, ...]:
-        """What was done to the first trace, or to the map."""
+        """Processing steps of the first trace; empty for a map."""
         return () if self.across is None else self.across.filtered[0].steps
 
     @property
     def peklenik(self) -> float | None:
-        """Correlation length across the lay over that along it, of traces in both directions."""
+        """Correlation length across over along the lay, for traces in both directions."""
         from roughness.lay import peklenik_number
 
         if self.across is None or self.along is None:
@@ -186,7 +186,7 @@ class Measured:
 
 
 def moved(surface: Surface, axis: Mapping[str, float], sign: float) -> Surface:
-    """The surface at one end of an axis of its scatter.
+    """Surface at one end of an axis of its scatter.
 
     >>> one = Surface("a", 1e-14, 1e-3, 1e9, 0.0, 0.0, 46.0, 7800.0, 470.0)
     >>> moved(one, {"m2": 0.1}, -1.0).m2 < one.m2

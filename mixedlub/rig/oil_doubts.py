@@ -1,4 +1,4 @@
-"""Doubts of an oil: data-sheet temperatures in Fahrenheit, and viscosities that lubricants do not have."""
+"""Doubts about an oil: data-sheet temperatures in Fahrenheit, and viscosities untypical of lubricants."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from mixedlub.schema.findings import Finding, finding
 IN_USE = (40.0 + ZERO_CELSIUS, 150.0 + ZERO_CELSIUS)
 """Judgement. Temperatures (K) of an oil in use: from the first of a data sheet to hot flanks."""
 LARGEST_PRESSURE = 2e9
-"""Judgement. Hertz pressure (Pa) up to which gears are loaded and laws of viscosity are used."""
+"""Judgement. Largest Hertz pressure (Pa) of gears and of viscosity laws in use."""
 FAHRENHEIT = ((100.0, 104.0), (210.0, 212.0))
-"""Definition. Temperatures of data sheets in degrees Fahrenheit: 100 and 210 of old ones, 40 and 100 °C of new ones."""
+"""Definition. Data-sheet temperatures in degrees Fahrenheit: 100 and 210 in old sheets, 40 and 100 °C in new sheets."""
 KINEMATIC = (0.21e-6, 0.1)
 """Judgement. Kinematic viscosities (m^2/s): ASTM D341 ends at 0.21 mm^2/s; the thickest lubricants, polybutenes, have
-some 1e4 mm^2/s at 40 °C, and ten times more is another substance or unit."""
+some 1e4 mm^2/s at 40 °C; ten times more is another substance or unit."""
 REFERENCE_PRESSURE, MOST_RISE = 1e9, 1e8
 """Judgement. Rise of the viscosity to 1 GPa at 40 °C: 1e3 to 1e7 in lubricating oils, up to 9e7 by Roelands and Gold in
-mineral oils to ISO VG 3200; an oil that would rise more has become a solid before."""
+mineral oils to ISO VG 3200; with a larger rise an oil solidifies before."""
 Log = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 
 def doubts(oil: Lubricant, unread: Collection[str] = ()) -> Iterator[Finding]:
-    """Findings on an oil, each with its name; keys of its section that are ``unread`` are not judged."""
+    """Findings on an oil, with its name; ``unread`` keys of its section are not judged."""
     celsius = [t - ZERO_CELSIUS for t in oil.temperature]
     if all(min(abs(t - f) for f in sheet) < 0.3 for t, sheet in zip(sorted(celsius), FAHRENHEIT, strict=True)):
         meant = " and ".join(f"{(t - 32.0) / 1.8:.3g}" for t in celsius)
@@ -60,7 +60,7 @@ def _of_coefficient(oil: Lubricant) -> Iterator[Finding]:
 
 
 def _by_modulus(oil: Lubricant) -> Log:
-    """Logarithm of the viscosity by the modulus equation of an oil that has its constants."""
+    """Logarithm of the viscosity by the modulus equation, for an oil with its constants."""
 
     def log(pressure: np.ndarray, temperature: np.ndarray) -> np.ndarray:
         known = oil.inputs(temperature)
@@ -78,7 +78,7 @@ def under_pressure(
     temperatures: tuple[float, float] = IN_USE,
     largest_pressure: float = LARGEST_PRESSURE,
 ) -> Iterator[Finding]:
-    """Findings on the logarithm of a viscosity by pressure (Pa) and temperature (K), within the range of its use."""
+    """Findings on ln viscosity as a function of pressure (Pa) and temperature (K) in its range of use."""
     kelvin, pressure = np.linspace(*temperatures, 45), np.linspace(0.0, largest_pressure, 21)[1:]
     with np.errstate(all="ignore"):
         values = log(pressure[:, None], kelvin)

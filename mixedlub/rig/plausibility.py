@@ -1,4 +1,4 @@
-"""What of a case or study is far from any rig, though possible: its numbers, traces and load shares."""
+"""Plausibility checks of a case or study: numbers, traces and load shares possible but unlike any rig."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from mixedlub.schema.system_file import Contact, System
 from profiles.errors import InputError
 
 ELASTOMER = (0.3, 0.45)
-"""Source: M. F. Ashby, Materials Selection in Mechanical Design, 4th ed. (2011). Modulus (GPa) below which a body is
-rubber or foam, and Poisson ratio from which it is rubber."""
+"""Source: M. F. Ashby, Materials Selection in Mechanical Design, 4th ed. (2011). Largest modulus (GPa) of rubber and
+foam, and least Poisson ratio of rubber."""
 MOST_BACKLASH = 0.1
 """Judgement. Backlash over normal module; ISO/TR 10064-2 recommends at least 0.02 to 0.05 for industrial gears."""
 BANDWIDTH = (1.0 - 1e-6, 1e5)
-"""Nayak's m0 m4/m2^2: no profile has less than 1 (Cauchy and Schwarz), none of two scales apart by 300 more."""
+"""Nayak's m0 m4/m2^2: at least 1 for any profile (Cauchy and Schwarz), at most this for two scales 300 apart."""
 
 
 def implausible(rig: Rig, surfaces: Collection[str] | None = None) -> Iterator[Finding]:
-    """What is implausible about a rig; of its ``surfaces``, all where none are named."""
+    """Findings on implausible parts of a rig, with the given or all surfaces."""
     yield from (one for one in ranges.unusual(rig.file) if not _of_elastomer(rig, one))
     if rig.file.gears is not None:
         yield from rig.sharing.check(rig.gears)
@@ -38,7 +38,7 @@ def implausible(rig: Rig, surfaces: Collection[str] | None = None) -> Iterator[F
 
 
 def _of_elastomer(rig: Rig, found: Finding) -> bool:
-    """Whether a finding doubts the small modulus of a body that hardly changes its volume, as rubber does."""
+    """Whether a finding doubts the small modulus of a nearly incompressible body, such as rubber."""
     contact = rig.file.contact if isinstance(rig.file, System) else None
     if contact is None or not found.place.startswith("contact.youngs_modulus_GPa"):
         return False
@@ -47,7 +47,7 @@ def _of_elastomer(rig: Rig, found: Finding) -> bool:
 
 
 def _backlash(rig: Rig) -> Iterator[Finding]:
-    """A centre distance that leaves the flanks far apart for the profile shifts."""
+    """Finding on a centre distance with large backlash for the profile shifts."""
     pair = rig.gears
     if pair.centre_distance is not None and pair.backlash > MOST_BACKLASH * pair.normal_module:
         text = (
@@ -58,7 +58,7 @@ def _backlash(rig: Rig) -> Iterator[Finding]:
 
 
 def _ellipticity(contact: Contact) -> Iterator[Finding]:
-    """A point contact whose ellipse is outside the range of the base model's film law."""
+    """Finding on a point contact with an ellipse outside the range of the base model's film law."""
     if contact.geometry != "point" or contact.transverse_radius_mm is None:
         return
     along, across = (_reduced(radii) for radii in (contact.radius_mm, contact.transverse_radius_mm))
@@ -73,7 +73,7 @@ def _reduced(radii: tuple[float, float]) -> np.ndarray:
 
 
 def _surface(rig: Rig, name: str) -> Surface | None:
-    """The surface; None where its trace cannot be read, which is an error where it is computed with."""
+    """Surface, or None if its trace cannot be read, which is an error in a computation only."""
     with collected():
         try:
             return rig.surface(name)
@@ -82,7 +82,7 @@ def _surface(rig: Rig, name: str) -> Surface | None:
 
 
 def _roughness(surface: Surface, place: str, section: surface_file.SurfaceSection) -> Iterator[Finding]:
-    """What is implausible in the moments of a trace, and in the three moments together."""
+    """Findings on implausible moments of a trace, and on the three moments together."""
     if section.is_measured:
         moments = (("m0_um2", surface.m0 * 1e12), ("m2", surface.m2), ("m4_per_um2", surface.m4 * 1e-12))
         for key, value in moments:

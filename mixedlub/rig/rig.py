@@ -1,4 +1,4 @@
-"""A rig: the parts that the sections of a file describe, each built once and then kept."""
+"""A rig with the parts described in a file, each built once."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ Part = TypeVar("Part")
 
 @dataclass(frozen=True, eq=False)
 class Rig:
-    """Gears, load sharing, oil and surfaces of a file; what a part needs is read from ``folder`` when it is first used.
+    """Gears, load sharing, oil and surfaces of a file; files of a part are read from ``folder`` at its first use.
 
-    Every use of a part reports what was assumed for it, as the first one did; nothing is reported of keys of the oil
-    that the kind of recording leaves ``unread_of_oil``.
+    Assumptions for a part are reported at each use. ``unread_of_oil``: oil keys not used by the kind of recording,
+    which are not reported.
     """
 
     file: RigFile
@@ -35,53 +35,53 @@ class Rig:
 
     @property
     def gears(self) -> GearPair:
-        """The gear pair; only of files that have one."""
+        """Gear pair, only for files with gears."""
         assert self.file.gears is not None
         section = self.file.gears
         return self._once("gears", lambda: gear_build.gear_pair(section))
 
     @property
     def sharing(self) -> Sharing:
-        """How the load divides between the tooth pairs in contact."""
+        """Load sharing between the tooth pairs in contact."""
         assert self.file.gears is not None
         section = self.file.gears.load_sharing
         return self._once("sharing", lambda: gear_build.sharing(section, self.folder))
 
     def mesh(self, points: int, slices: int | None = None) -> Mesh:
-        """The contact points of a tooth pair along its path."""
+        """Contact points of a tooth pair along its path."""
         return self._once(
             ("mesh", points, slices), lambda: mesh(self.gears, self.sharing, points=points, slices=slices)
         )
 
     def oil(self) -> Lubricant:
-        """The lubricant."""
+        """Lubricant."""
         return self._once("oil", lambda: build.lubricant(self.file.lubricant, self.unread_of_oil, self.folder))
 
     def trace(self, name: str) -> Profile:
-        """The measured trace of a surface, the first of several, as its file has it."""
+        """First measured trace of a surface, as in its file."""
         return self._traces(name)[0]
 
     def _traces(self, name: str) -> tuple[Profile, ...]:
-        """The measured traces of a surface, those across its lay where it has one."""
+        """Measured traces; on a surface with a lay, the traces across it."""
         return self._once(("traces", name), lambda: build.traces(name, self.file.surfaces[name], self.folder))
 
     def _filtered(self, name: str) -> Traces:
-        """The traces of a surface with their roughness profiles."""
+        """Traces of a surface with roughness profiles."""
         section = self.file.surfaces[name]
         return self._once(("filtered", name), lambda: build.filtered(name, section, self._traces(name)))
 
     def profile(self, name: str) -> Profile:
-        """The filtered roughness profile of a surface that names traces, the first of several."""
+        """Filtered roughness profile of the first trace of a surface."""
         return self._filtered(name).filtered[0]
 
     def measured(self, name: str) -> Measured:
-        """What was measured of a surface that names traces or a map, filtered."""
+        """Filtered traces or map of a measured surface."""
         section = self.file.surfaces[name]
         across = self._filtered(name) if section.files else None
         return self._once(("measured", name), lambda: build.measured(name, section, self.folder, across))
 
     def surface(self, name: str) -> Surface:
-        """A surface, from its moments, or from its traces or map."""
+        """Surface from its moments, traces or map."""
         section = self.file.surfaces[name]
 
         def built() -> Surface:
@@ -90,9 +90,9 @@ class Rig:
         return self._once(("surface", name), built)
 
     def at_short_cutoff(self, name: str, factor: float) -> Surface:
-        """A measured surface at a multiple of its short cut-off; as it is where it has none or cannot show such waves.
+        """Measured surface at a multiple of its short cut-off; unchanged without a cut-off or if unresolved.
 
-        What there is to report of the surface is reported with the surface itself.
+        Findings are reported with the surface itself.
         """
         own = self.surface(name)
         section = self.file.surfaces[name]
@@ -108,7 +108,7 @@ class Rig:
             return self._once(("short_cutoff", name, factor), built)
 
     def parts(self) -> Iterator[GearPair | Sharing | Lubricant | Surface]:
-        """Every part that the file describes: an error names the first one that cannot be built."""
+        """All parts described in the file; an error names the first part that cannot be built."""
         if self.file.gears is not None:
             yield from (self.gears, self.sharing)
         if self.file.lubricant is not None:
@@ -116,7 +116,7 @@ class Rig:
         yield from map(self.surface, self.file.surfaces)
 
     def _once(self, key: Hashable, make: Callable[[], Part]) -> Part:
-        """A part, built at its first use; its findings are reported at every use."""
+        """Part, built at its first use; its findings are reported at every use."""
         if key not in self._built:
             with collected() as found:
                 part = make()

@@ -1,4 +1,4 @@
-"""A flank as the chain sees it: spectral moments in one or two directions, coating, and the body beneath."""
+"""Flank as input of the chain: spectral moments in one or two directions, coating and substrate."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from profiles.errors import InputError
 
 @dataclass(frozen=True)
 class Surface:
-    """One surface in SI: profile moments, optional coating, thermal properties of the body (steel unless given).
+    """Surface in SI: profile moments, optional coating, thermal properties of the body (steel unless given).
 
-    ``m2`` and ``m4`` are across the ``lay`` where it is known, those along it are ``m2_along`` and ``m4_along``; a
-    surface without a lay has none of these. ``peklenik`` is the correlation length across the lay over that along it.
-    ``steps`` is what was done to the trace that the moments are of. ``mean_over_rms`` is the measured Ra over sqrt(m0).
+    ``m2`` and ``m4`` are across the ``lay`` if known, ``m2_along`` and ``m4_along`` along it (None without a lay).
+    ``peklenik``: correlation length across over along the lay; ``steps``: processing of the trace; ``mean_over_rms``:
+    measured Ra over sqrt(m0).
     """
 
     name: str
@@ -39,12 +39,12 @@ class Surface:
 
     @property
     def mean_roughness(self) -> float:
-        """Ra (m), as measured, or of normal heights where only moments are stated."""
+        """Ra (m), as measured, or for normal heights if only moments are given."""
         return (self.mean_over_rms or MEAN_OF_NORMAL) * float(self.m0) ** 0.5
 
     @property
     def bandwidth(self) -> float:
-        """Nayak's m0 m4/m2^2 of the isotropic surface that stands for this one."""
+        """Nayak's m0 m4/m2^2 of the equivalent isotropic surface."""
         along = self._along
         return self.m0 * (self.m4 * along[1]) ** 0.5 / (self.m2 * along[0])
 
@@ -65,7 +65,7 @@ class Surface:
 
     @property
     def orientation(self) -> float:
-        """Correlation length in the direction of motion over that across it: below 1 for transverse ridges.
+        """Correlation length in over across the direction of motion: below 1 for transverse ridges.
 
         >>> one = Surface("a", 1e-14, 4e-3, 1e9, 0, 0, 46, 7800, 470, lay="transverse", m2_along=1e-3, m4_along=1e8)
         >>> one.orientation
@@ -78,7 +78,7 @@ class Surface:
 
 
 def check_lays(first: Surface, second: Surface) -> None:
-    """Refuse a contact of which the lay of one surface is known and that of the other is not."""
+    """Raise an error if only one of two surfaces has a lay."""
     if (first.lay is None) != (second.lay is None):
         known, unknown = (first, second) if first.lay else (second, first)
         rule = (
@@ -89,14 +89,14 @@ def check_lays(first: Surface, second: Surface) -> None:
 
 
 def mean_over_rms(first: Sequence[Surface], second: Sequence[Surface]) -> np.ndarray:
-    """Sum of both Ra over the sum of both Rq, one entry a pair."""
+    """Sum of both Ra over sum of both Rq, by pair."""
     pairs = list(zip(first, second, strict=True))
     ra = np.array([a.mean_roughness + b.mean_roughness for a, b in pairs])
     return ra / np.array([float(a.m0) ** 0.5 + float(b.m0) ** 0.5 for a, b in pairs])
 
 
 def mean_assumed(surfaces: Iterable[Surface]) -> Iterator[Finding]:
-    """The finding that the Ra of some surfaces, which a law reads, follows from Rq as of normal heights."""
+    """Finding on Ra calculated from Rq for normal heights, as input of a law."""
     stated = [one.name for one in surfaces if one.mean_over_rms is None]
     if stated:
         text = f"Ra of {', '.join(stated)} taken as {MEAN_OF_NORMAL:.3f} Rq, as of normal heights: no trace gives it"
@@ -104,11 +104,11 @@ def mean_assumed(surfaces: Iterable[Surface]) -> Iterator[Finding]:
 
 
 def paired(first: Sequence[Surface], second: Sequence[Surface], coated: bool = False) -> dict[str, np.ndarray]:
-    """Chain inputs of surfaces taken in pairs: moments add, thermal properties average; one entry a pair.
+    """Chain inputs of pairs of surfaces: moments add, thermal properties average.
 
-    Independent surfaces add their spectra (Nayak 1971), so moments are summed, direction by direction, before anything
-    else is formed. An isotropic surface stands for one with a lay: its m2 and m4 are geometric means of both
-    directions. Where no pair has a coating there are no inputs of one, unless others than these pairs are ``coated``.
+    Spectra of independent surfaces add (Nayak 1971), so moments are summed by direction before any other step. A
+    surface with a lay is replaced by an isotropic surface: m2 and m4 are geometric means of both directions. Coating
+    inputs are left out if no pair has a coating, unless ``coated`` (pairs elsewhere have coatings).
     """
 
     def each(attribute: str, side: Sequence[Surface]) -> np.ndarray:
@@ -138,7 +138,7 @@ def paired(first: Sequence[Surface], second: Sequence[Surface], coated: bool = F
 def _peklenik(first: Sequence[Surface], second: Sequence[Surface]) -> np.ndarray:
     """Peklenik number of two surfaces together, in the direction of motion.
 
-    The first order of the flow factor has each surface by its variance times 1/(1 + gamma), so that these add up.
+    At first order, flow factors depend on each surface by its variance times 1/(1 + gamma), so that these terms add up.
     Source: J. H. Tripp, J. Lubr. Technol. 105 (1983) 458.
     """
     m0, gamma = (

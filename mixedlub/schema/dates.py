@@ -1,4 +1,4 @@
-"""Dates with a time of day as instruments write them; both interpretations where day and month are ambiguous."""
+"""Dates with time of day in instrument formats; both readings if day and month are ambiguous."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ BEGUN = re.compile(rf"\d+[-/.:]\d+|(?:\d{{1,2}}[ .-]+)?(?:{MONTH})\.?[ ,-]+\d", 
 
 
 def is_dated(cell: str) -> bool:
-    """Whether a cell begins like a date or a time of day, so that it is not a name.
+    """Whether a cell begins with a date or a time of day, and so cannot be a name.
 
     >>> [is_dated(cell) for cell in ("23/11/2026", "14:03", "23 Nov 2026", "Nov 23, 2026", "steel 52", "Marlin 3")]
     [True, True, True, True, False, False]
@@ -38,9 +38,9 @@ def is_dated(cell: str) -> bool:
 
 
 def moments(cells: Sequence[str]) -> Mapping[str, list[datetime]]:
-    """The times in cells that are all dates of one form, by order of day and month.
+    """Times in cells of dates in one format, by order of day and month.
 
-    A unique order has the name ''. Empty where a cell is no date.
+    An unambiguous order has the name ''. Empty if a cell is not a date.
 
     >>> [str(m) for m in moments(["23 Nov 2026 02:03:10 PM"])[""]]
     ['2026-11-23 14:03:10']
@@ -70,7 +70,7 @@ def moments(cells: Sequence[str]) -> Mapping[str, list[datetime]]:
 
 
 def resolution(cells: Sequence[str]) -> float:
-    """Resolution of a clock in seconds: a minute where seconds are not written.
+    """Resolution of a clock in seconds; a minute if seconds are missing.
 
     >>> resolution(["23/11/2026 14:03"]), resolution(["2026-11-23T14:03:10Z"])
     (60.0, 1.0)
@@ -79,12 +79,12 @@ def resolution(cells: Sequence[str]) -> float:
 
 
 def _same_zone_use(found: Sequence[datetime]) -> bool:
-    """Whether all times have a time zone, or none."""
+    """Whether either all times or no times have a time zone."""
     return len({moment.tzinfo is None for moment in found}) == 1
 
 
 def _moment(part: Mapping[str, str | None], day: str | None, month: str | None) -> datetime | None:
-    """The time from the parts of a date; None where no such day or hour exists."""
+    """Time from the parts of a date; None for a day or hour that does not exist."""
     name, half, hour = (month or "").lower(), (part["half"] or "").lower(), int(part["hour"] or 0)
     number = int(name) if name.isdecimal() else MONTHS.index(name[:3]) + 1
     if half and not 1 <= hour <= 12:
@@ -101,7 +101,7 @@ def _moment(part: Mapping[str, str | None], day: str | None, month: str | None) 
 
 
 def _zone(text: str | None) -> timezone:
-    """The time zone written after a time of day.
+    """Time zone from the suffix of a time of day.
 
     >>> _zone("Z") == timezone.utc, str(_zone("-0530"))
     (True, 'UTC-05:30')

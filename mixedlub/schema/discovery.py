@@ -1,4 +1,4 @@
-"""What the files of a package declare and what other packages offer: a part is added by adding one file."""
+"""Discovery of declarations in the modules of a package and in other packages, so that each part is one file."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from profiles.errors import InputError
 
 
 def offered(group: str) -> list[Any]:
-    """What other packages offer under a group of entry points: modules, or objects in them."""
+    """Modules or objects of other packages under a group of entry points."""
     found = []
     for point in entry_points(group=group):
         try:
@@ -25,16 +25,16 @@ def offered(group: str) -> list[Any]:
 
 
 def loaded(package: str, group: str) -> list[Any]:
-    """The modules of a package by name, then what other packages offer; all are imported."""
+    """Import and return the modules of a package by name, then the entry points of other packages."""
     own = pkgutil.iter_modules(importlib.import_module(package).__path__)
     return [*(importlib.import_module(f"{package}.{module.name}") for module in own), *offered(group)]
 
 
 @cache
 def declared(package: str, group: str, name: str) -> tuple[Any, ...]:
-    """The objects that modules of a package, or offered ones, hold under this name; each has a name of its own.
+    """Objects of a given name in modules of a package and entry points; their ``name`` must be unique.
 
-    An entry point may lead to the object itself.
+    An entry point may be the object itself.
 
     >>> [kind.name for kind in declared("mixedlub.kinds", "mixedlub.kinds", "KIND")][:2]
     ['disc', 'film']

@@ -1,4 +1,4 @@
-"""Findings: what a user should know of an input or a result, each with a code that programs can rely on."""
+"""Findings: messages on an input or a result, each with a code for programs."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from importlib.resources import files
 from profiles.errors import nearest
 
 PLACES_LISTED = 3
-"""Largest number of places that a group of findings lists; longer lists are not read."""
+"""Largest number of places listed for a group of findings; longer lists are not read."""
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
 
 
@@ -40,7 +40,7 @@ class FindingKind:
 
 @cache
 def registered() -> Mapping[str, FindingKind]:
-    """The kinds of findings by code.
+    """Kinds of findings by code.
 
     >>> registered()["columns_unknown"].severity
     <Severity.NOTE: 'note'>
@@ -51,9 +51,9 @@ def registered() -> Mapping[str, FindingKind]:
 
 @dataclass(frozen=True)
 class Finding:
-    """One message to the user: its kind, severity, place and text.
+    """Message to the user: kind, severity, place and text.
 
-    The place is a file, key, column or run; empty where the text is about the input or the result as a whole.
+    The place is a file, key, column or run; empty for the input or the result as a whole.
 
     >>> str(finding("columns_unknown", "columns ignored: colour", "recordings.csv"))
     'recordings.csv: columns ignored: colour'
@@ -76,7 +76,7 @@ class Finding:
 
 
 def finding(code: str, text: str, place: str = "", severity: Severity | None = None) -> Finding:
-    """A finding of a registered kind, with the kind's default severity unless another is given."""
+    """Finding of a registered kind, with the default severity of the kind unless given."""
     return Finding(code, severity or _kind(code).severity, place, text)
 
 
@@ -88,7 +88,7 @@ def _kind(code: str) -> FindingKind:
 
 
 class FindingWarning(UserWarning):
-    """Python warning that carries a finding out of code that returns something else."""
+    """Python warning that carries a finding out of a function with another return value."""
 
     def __init__(self, found: Finding) -> None:
         super().__init__(str(found))
@@ -96,16 +96,16 @@ class FindingWarning(UserWarning):
 
 
 class CautionWarning(UserWarning):
-    """A caution or a doubt about the input or the result of a call from Python; its text begins with the severity."""
+    """Caution or doubt about a Python call; its text begins with the severity."""
 
 
 def gravest_first(found: Iterable[Finding]) -> list[Finding]:
-    """Doubts, then cautions, then notes, each kind in its order."""
+    """Findings by descending severity, otherwise in their order."""
     return sorted(found, key=lambda one: -list(Severity).index(one.severity))
 
 
 def as_texts(found: Iterable[Finding]) -> list[str]:
-    """Findings as the commands print them: the severity, the place and the text, those of one kind as one.
+    """Findings as printed by the commands: severity, place and text, merged by kind.
 
     >>> as_texts([finding("columns_unknown", "columns ignored: colour", "recordings.csv")])
     ['note: recordings.csv: columns ignored: colour']
@@ -114,19 +114,19 @@ def as_texts(found: Iterable[Finding]) -> list[str]:
 
 
 def warn_of(found: Iterable[Finding], stacklevel: int = 3) -> None:
-    """Warn of cautions and doubts, each once; by default at the line that called the caller. Notes do not warn."""
+    """Warn once of each caution and doubt, by default at the line of the caller's caller; notes do not warn."""
     for text in as_texts(of_severity(found, Severity.CAUTION, Severity.DOUBT)):
         warnings.warn(text, CautionWarning, stacklevel=stacklevel)
 
 
 def report(found: Finding) -> None:
-    """Report a finding to the active `collected` context; without one it is an ordinary Python warning."""
+    """Report a finding to the active `collected` context, or else as a Python warning."""
     warnings.warn(FindingWarning(found), stacklevel=3)
 
 
 @contextmanager
 def collected() -> Iterator[list[Finding]]:
-    """Collect the findings reported in the context, each once; other warnings pass through.
+    """Collect the distinct findings reported in the context; other warnings pass through.
 
     >>> with collected() as found:
     ...     report(finding("columns_unknown", "columns ignored: colour", "recordings.csv"))
@@ -145,17 +145,17 @@ def collected() -> Iterator[list[Finding]]:
 
 
 def codes(found: Iterable[Finding]) -> list[str]:
-    """The distinct kinds of findings."""
+    """Codes of the findings."""
     return [one.code for one in found]
 
 
 def of_severity(found: Iterable[Finding], *wanted: Severity) -> tuple[Finding, ...]:
-    """The findings of at least a given severity."""
+    """Findings of the given severities."""
     return tuple(one for one in found if one.severity in wanted)
 
 
 def grouped(found: Iterable[Finding]) -> tuple[Finding, ...]:
-    """Merge findings of one kind that differ only in place or number; the merged one lists the places.
+    """Merge findings of a kind that differ only in place or number; the merged finding lists the places.
 
     >>> runs = [finding("reading_too_large", f"reads {y}, far above the others", f"run {y}") for y in (70, 80, 90)]
     >>> print(*grouped(runs))
@@ -182,7 +182,7 @@ def _as_one(group: Sequence[Finding]) -> Finding:
 
 
 def listed(items: Sequence[object], most: int = PLACES_LISTED) -> str:
-    """The first items and the number of remaining ones.
+    """First items and the number of remaining items.
 
     >>> listed([3, 4]), listed([1, 2, 3, 4, 5])
     ('3, 4', '1, 2, 3 and 2 more')

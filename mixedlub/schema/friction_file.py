@@ -1,4 +1,4 @@
-"""The file of a fitted friction law: its name, what it was fitted to, its error, and its coefficients."""
+"""File of a fitted friction law: name, source of the fit, error and coefficients."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ SCHEMA, SUFFIX = "mixedlub-friction/1", ".toml"
 
 
 class FrictionFile(Section):
-    """Coefficients of a friction law that were fitted to solutions or measurements of one oil."""
+    """Coefficients of a friction law fitted to solutions or measurements with one oil."""
 
     schema_: Literal["mixedlub-friction/1"] = key("format of the file", example=SCHEMA, alias="schema")
     law: Literal["condensed", "loepenhaus"] = key(
@@ -26,7 +26,7 @@ class FrictionFile(Section):
 
 
 def coefficients_of(value: Any, info: ValidationInfo) -> Any:
-    """Coefficients as they are given, or those of a file that is named."""
+    """Coefficients as given, or from a named file."""
     if not isinstance(value, str):
         return value
     folder = (info.context or {}).get("folder")

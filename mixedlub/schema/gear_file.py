@@ -1,4 +1,4 @@
-"""Gear pairs by name: one file a pair, each number with where it comes from."""
+"""Gear pairs by name: one file per pair, with the source of each number."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ STATUSES: Mapping[str, str] = {
 
 
 class Property(Section):
-    """A number of a gear pair, or two: of pinion and gear."""
+    """Number of a gear pair, or two for pinion and gear."""
 
     value: Annotated[Any, AfterValidator(one_or_two_numbers)] = key("the number, or two", example=[16, 24])
     status: Status = key("where it comes from", "stated", values=STATUSES)
@@ -33,7 +33,7 @@ class Property(Section):
 
 
 class GearFile(Section):
-    """The file of a gear pair."""
+    """File of a gear pair."""
 
     schema_: Literal["mixedlub-gears/1"] = key("format of the file", example="mixedlub-gears/1", alias="schema")
     name: str = key("name of the gears, for the report", example="FZG C")
@@ -43,12 +43,12 @@ class GearFile(Section):
 
     @property
     def keys(self) -> dict[str, Any]:
-        """The keys of a section ``[gears]`` that this pair means."""
+        """Keys of a section ``[gears]`` for this pair."""
         return {name: p.value for name, p in self.properties.items()}
 
 
 def gear_names() -> tuple[str, ...]:
-    """Gear pairs that come with the package.
+    """Gear pairs of the package.
 
     >>> "fzg_c" in gear_names()
     True
@@ -59,7 +59,7 @@ def gear_names() -> tuple[str, ...]:
 
 @cache
 def shipped_gears(name: str) -> GearFile:
-    """A gear pair that comes with the package; an unknown name raises an error with the nearest known one.
+    """Gear pair of the package; raise an error with the nearest known name for an unknown name.
 
     >>> shipped_gears("fzg_c").keys["teeth"]
     (16, 24)
@@ -71,7 +71,7 @@ def shipped_gears(name: str) -> GearFile:
 
 
 def with_preset(given: Mapping[str, Any]) -> dict[str, Any]:
-    """A section ``[gears]`` with what its preset adds; what the section states itself stays.
+    """Section ``[gears]`` completed by its preset; keys stated in the section take precedence.
 
     >>> with_preset({"preset": "fzg_c", "face_width_mm": 20.0})["face_width_mm"]
     20.0
@@ -80,6 +80,6 @@ def with_preset(given: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def stated_otherwise(section: Mapping[str, Any]) -> dict[str, Any]:
-    """What a preset has that its section states otherwise."""
+    """Values of the preset that the section states differently."""
     own = shipped_gears(str(section["preset"])).keys
     return {name: value for name, value in own.items() if section[name] != value}

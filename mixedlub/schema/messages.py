@@ -30,7 +30,7 @@ RULES = {
     "dict_type": "must be a table of keys",
     "model_attributes_type": "must be a table of keys",
 }
-"""The rule behind each type of validation error of pydantic."""
+"""Rule for each type of pydantic validation error."""
 
 
 def place(loc: Sequence[Any]) -> str:
@@ -44,7 +44,7 @@ def place(loc: Sequence[Any]) -> str:
 
 
 def rule(error: Mapping[str, Any]) -> str:
-    """The rule that a value broke."""
+    """Rule violated by a value."""
     kind, values = error["type"], error.get("ctx", {})
     if kind == "literal_error":
         return _one_of(error["input"], values["expected"])
@@ -80,7 +80,7 @@ def of_option(text: str) -> str:
 
 
 def counted(count: int) -> str:
-    """A count of entries.
+    """Count of entries in words.
 
     >>> counted(1), counted(2)
     ('1 entry', '2 entries')
@@ -95,7 +95,7 @@ def _one_of(value: object, expected: str) -> str:
 
 
 def printable(text: str) -> str:
-    r"""Text without control characters, which a title or name could use to control the terminal.
+    r"""Text with control characters escaped, which could command the terminal in a title or name.
 
     >>> printable("red \x1b[31m, next\nline")
     'red \\x1b[31m, next\nline'

@@ -1,4 +1,4 @@
-"""Oils by name: one file an oil, with viscosity, shear and heat of it together, and where each number comes from."""
+"""Oils by name: one file per oil with viscosity, shear and heat, and the source of each number."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from profiles.errors import InputError, nearest
 
 SUFFIX, SCHEMA = ".toml", "mixedlub-oil/1"
 KNOWN = "known_pressure_viscosity"
-"""Key of a pressure-viscosity coefficient that is known at one temperature."""
+"""Key of a pressure-viscosity coefficient known at one temperature."""
 Status = Literal["stated", "derived", "typical"]
 STATUSES: Mapping[str, str] = {
     "stated": "printed by the source",
@@ -47,7 +47,7 @@ class KnownCoefficient(Section):
 
 
 def one_or_two_numbers(value: Any) -> Any:
-    """A number, or two as a tuple; else an error."""
+    """Number as given or two numbers as a tuple; raise an error otherwise."""
     entries = value if isinstance(value, (list, tuple)) else [value]
     if len(entries) not in (1, 2) or any(isinstance(x, bool) or not isinstance(x, (int, float)) for x in entries):
         raise ValueError("is a number, or a list of two")
@@ -55,7 +55,7 @@ def one_or_two_numbers(value: Any) -> Any:
 
 
 class Property(Section):
-    """A number of an oil, or two at its two temperatures."""
+    """Number of an oil, or two at its two temperatures."""
 
     value: Annotated[Any, AfterValidator(one_or_two_numbers)] = key(
         "the number, or two at temperature_C", example=[97.9, 8.61]
@@ -79,7 +79,7 @@ class Property(Section):
         return self
 
     def entry(self, name: str) -> tuple[str, Any]:
-        """The key of a section ``[lubricant]`` that this property means, and its value."""
+        """Key and value in a section ``[lubricant]`` for this property."""
         if self.carried is None:
             return name, self.value
         known = {"coefficient_per_GPa": self.value, "temperature_C": self.temperature_C, "carried": self.carried}
@@ -87,7 +87,7 @@ class Property(Section):
 
 
 class FurtherLaw(Section):
-    """Data of a law that no law of this package reads: kept with the oil, and used with nothing else."""
+    """Data of a law beyond this package, kept with the oil but not used."""
 
     equation: str = key("the law, in words or symbols with units", example="eta = K exp(C/(D + T))")
     values: dict[str, float] = key("its numbers", example={"K": 1e-4})
@@ -96,7 +96,7 @@ class FurtherLaw(Section):
 
 
 class OilFile(Section):
-    """The file of an oil."""
+    """File of an oil."""
 
     schema_: Literal["mixedlub-oil/1"] = key("format of the file", example="mixedlub-oil/1", alias="schema")
     name: str = key("name of the oil, for the report", example="gear oil of the rig")
@@ -109,12 +109,12 @@ class OilFile(Section):
 
     @property
     def keys(self) -> dict[str, Any]:
-        """The keys of a section ``[lubricant]`` that this oil means."""
+        """Keys of a section ``[lubricant]`` for this oil."""
         return {"name": self.name, "base": self.base} | dict(p.entry(name) for name, p in self.properties.items())
 
 
 def oil_names() -> tuple[str, ...]:
-    """Oils that come with the package.
+    """Oils of the package.
 
     >>> oil_names()[:2]
     ('75w90', 'agma_7ep')
@@ -129,7 +129,7 @@ def _text(name: str) -> str:
 
 @cache
 def shipped_oil(name: str) -> OilFile:
-    """An oil that comes with the package; an unknown name raises an error with the nearest known one.
+    """Oil of the package; raise an error with the nearest known name for an unknown name.
 
     >>> shipped_oil("n100").base
     'mineral'
@@ -141,7 +141,7 @@ def shipped_oil(name: str) -> OilFile:
 
 
 def oil_of(named: str, folder: Path) -> OilFile:
-    """An oil by name, or by its file relative to a folder."""
+    """Oil by name, or from a file relative to a folder."""
     if not named.endswith(SUFFIX):
         return shipped_oil(named)
     return parse(OilFile, read_toml(folder / named), named)
@@ -150,11 +150,11 @@ def oil_of(named: str, folder: Path) -> OilFile:
 PAIRS = ("kinematic_viscosity_mm2_s", "pressure_viscosity_per_GPa")
 """Keys with a value at each of the two temperatures of the section."""
 MODULUS = ("pressure_modulus_MPa", "pressure_modulus_slope")
-"""Keys of the modulus equation, also at these temperatures: another pressure-viscosity coefficient contradicts them."""
+"""Keys of the modulus equation, at the same temperatures; another pressure-viscosity coefficient contradicts them."""
 
 
 def with_oil(given: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """A section ``[lubricant]`` with what its oil adds; what the section states itself stays.
+    """Section ``[lubricant]`` completed by its oil; keys stated in the section take precedence.
 
     >>> with_oil({"oil": "n100", "eyring_stress_MPa": 6.0}, Path())["kinematic_viscosity_mm2_s"]
     (97.9, 8.61)
@@ -172,6 +172,6 @@ def with_oil(given: Mapping[str, Any], folder: Path) -> dict[str, Any]:
 
 
 def overridden(section: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """What an oil has that its section states otherwise, or has no use for; the name aside."""
+    """Values of the oil that its section states differently or does not use, except the name."""
     own = oil_of(str(section["oil"]), folder).keys
     return {name: value for name, value in own.items() if name != "name" and section[name] != value}

@@ -1,4 +1,4 @@
-"""Possible and typical ranges of all numbers, and the unit in which a number outside may have been given."""
+"""Possible and typical ranges of all numbers, and probable units of numbers outside."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.units import SLIPS, read_as, unit_of
 
 NO_SHARES = ("poisson_ratio", "sequence", "path_points", "face_slices")
-"""Numbers without a unit that are never given in percent."""
+"""Dimensionless numbers never given in percent."""
 
 
 @dataclass(frozen=True)
 class Range:
-    """Possible and typical range of a key; the limits are included."""
+    """Possible and typical range of a key, limits included."""
 
     key: str
     possible: tuple[float, float]
@@ -31,7 +31,7 @@ class Range:
 
 @cache
 def ranges() -> Mapping[str, Range]:
-    """The ranges by key of `system.toml`, without the name of a surface.
+    """Ranges by key of `system.toml`, without the name of a surface.
 
     >>> ranges()["lubricant.eyring_stress_MPa"].typical
     (0.3, 60.0)
@@ -50,12 +50,12 @@ def ranges() -> Mapping[str, Range]:
 
 
 def range_of(field: FieldInfo) -> Range | None:
-    """The range of a field of a file."""
+    """Range of a field of a file."""
     return next((m for m in field.metadata if isinstance(m, Range)), None)
 
 
 def probable_unit(name: str, value: object, low: float, high: float) -> str:
-    """Words for the unit in which a number outside a range would lie within it; empty where there is none.
+    """Question on the unit in which a number outside a range lies within it; empty if no unit fits.
 
     >>> probable_unit("kinematic_viscosity_mm2_s", 30e-6, 0.4, 2e6)
     '3e-05 m2/s would be 30 mm²/s: is it in that unit?'
@@ -79,7 +79,7 @@ ASKED = ": is it in that unit?"
 
 
 def range_violation(key: str | Range, value: object) -> str:
-    """The rule that an impossible value violates, with its probable unit; empty for a possible value.
+    """Rule violated by an impossible value, with its probable unit; empty for a possible value.
 
     >>> range_violation("gears.normal_module_mm", 0.0042)
     'must be from 0.01 to 200 mm; 0.0042 m would be 4.2 mm: is it in that unit?'
@@ -97,7 +97,7 @@ def range_violation(key: str | Range, value: object) -> str:
 
 
 def _entries(value: Any) -> Iterator[tuple[str, float]]:
-    """The numbers of a key, each with words that identify it."""
+    """Numbers of a key, each with identifying words."""
     if isinstance(value, tuple):
         yield from ((f"entry {number} ", entry) for number, entry in enumerate(value, start=1))
     else:
@@ -105,7 +105,7 @@ def _entries(value: Any) -> Iterator[tuple[str, float]]:
 
 
 def atypical(key: str | Range, value: float, place: str) -> list[Finding]:
-    """Finding on a possible value outside the typical range; empty where it lies within.
+    """Finding on a possible value outside the typical range; empty for a typical value.
 
     >>> print(*atypical("lubricant.eyring_stress_MPa", 90.0, "lubricant.eyring_stress_MPa"))
     lubricant.eyring_stress_MPa: 90, where rigs have 0.3 to 60 MPa: check the number and its unit
@@ -122,7 +122,7 @@ def atypical(key: str | Range, value: float, place: str) -> list[Finding]:
 
 
 def unusual(table: BaseModel, place: tuple[str, ...] = ()) -> Iterator[Finding]:
-    """Findings on numbers of a validated file that are possible but not typical, one per key."""
+    """Findings on possible but atypical numbers of a validated file, at most one per key."""
     for name, field in type(table).model_fields.items():
         value, within = getattr(table, name), range_of(field)
         if within is not None and value is not None:

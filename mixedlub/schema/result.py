@@ -1,4 +1,4 @@
-"""The result of a command: tables of described columns, figures, and lines for the user."""
+"""Result of a command: tables of described columns, figures, and lines for the user."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _END = re.compile(r"_(sd|low90|high90)(_own)?$")
-"""Ends of the names of columns that say how sure another column is."""
+"""Suffixes of columns with the uncertainty of another column."""
 _ANY = re.compile(r"[A-Z]{4,}")
-"""Part of a declared name that stands for any text."""
+"""Placeholder for any text in a declared name."""
 
 
 @dataclass(frozen=True)
 class ResultColumn:
-    """A column of a table: the output it is of, its name with unit, and its meaning.
+    """Column of a result table: output, name with unit, and meaning.
 
-    Its values are ``factor`` times the output in SI, less ``zero``, or ``value`` of what was found. Four capitals or
-    more in a name stand for any text: ``ORIGIN_loss_W``.
+    Values are ``factor`` times the output in SI, minus ``zero``, or ``value`` of the result. Four or more capitals in a
+    name stand for any text: ``ORIGIN_loss_W``.
     """
 
     output: str
@@ -39,7 +39,7 @@ class ResultColumn:
 
     @property
     def unit(self) -> str:
-        """Its unit, ``-`` for a number without one.
+        """Unit of the column, ``-`` for a dimensionless number.
 
         >>> ResultColumn("", "normal_force_N_sd", "").unit, ResultColumn("", "film_parameter", "").unit
         ('N', '-')
@@ -47,7 +47,7 @@ class ResultColumn:
         return self.given_unit or unit_of(_END.sub("", self.name)) or "-"
 
     def of(self, values: np.ndarray) -> np.ndarray:
-        """The values of the column from those of the output in SI.
+        """Values of the column from the output in SI.
 
         >>> ResultColumn("bulk", "bulk_temperature_C", "of the teeth", zero=273.15).of(np.array([373.15])).tolist()
         [100.0]
@@ -56,7 +56,7 @@ class ResultColumn:
         return scaled - self.zero if self.zero else scaled
 
     def declares(self, name: str) -> bool:
-        """Whether a column of a table is this one.
+        """Whether this declaration covers a column name.
 
         >>> ResultColumn("", "ORIGIN_loss_W", "").declares("seals_loss_W")
         True
@@ -65,12 +65,12 @@ class ResultColumn:
 
 
 def column(value: Callable[[Any], Any], name: str, meaning: str, unit: str = "") -> ResultColumn:
-    """A column with the function that gives its values, None where the table has no such column."""
+    """Column with the function for its values; None leaves the column out."""
     return ResultColumn("", name, meaning, given_unit=unit, value=value)
 
 
 def described(**meanings: str) -> tuple[ResultColumn, ...]:
-    """Columns by name with their meanings; a meaning that begins with ``text:`` is of a column of words."""
+    """Columns with meanings by name; the prefix ``text:`` marks a column of words."""
     return tuple(
         ResultColumn("", name, meaning.removeprefix("text:").strip(), given_unit="text" if ":" in meaning[:5] else "")
         for name, meaning in meanings.items()
@@ -78,7 +78,7 @@ def described(**meanings: str) -> tuple[ResultColumn, ...]:
 
 
 def with_interval(name: str, meaning: str, *, own: bool = False) -> tuple[ResultColumn, ...]:
-    """Columns of a value with its standard deviation and 90 % interval.
+    """Columns of a value with standard deviation and 90 % interval.
 
     >>> [one.name for one in with_interval("mean_friction", "of the mesh")]
     ['mean_friction', 'mean_friction_sd', 'mean_friction_low90', 'mean_friction_high90']
@@ -89,7 +89,7 @@ def with_interval(name: str, meaning: str, *, own: bool = False) -> tuple[Result
 
 
 def frame_of(found: Any, columns: Iterable[ResultColumn], shape: tuple[int, ...] | None = None) -> pd.DataFrame:
-    """The table of what was found, a column each that has values; those are spread over a ``shape`` if it is given."""
+    """Table of a result, one column per function with values; these are broadcast to ``shape`` if given."""
     import pandas as pd
 
     values = {one.name: one.value(found) for one in columns if one.value is not None}
@@ -100,14 +100,14 @@ def frame_of(found: Any, columns: Iterable[ResultColumn], shape: tuple[int, ...]
 
 
 def declared(columns: Iterable[ResultColumn], name: str) -> ResultColumn:
-    """The declaration of a column of a table; of one that has none, its name with the unit in it."""
+    """Declaration of a column; without declaration, a column with the unit in its name."""
     found = next((one for one in columns if one.declares(name)), ResultColumn("", name, ""))
     return replace(found, name=name)
 
 
 @dataclass(frozen=True)
 class Curve:
-    """Readings (``marker``) or a line of a figure; ``low`` and ``high`` are the ends of its 90 % interval."""
+    """Points (``marker``) or line of a figure; ``low`` and ``high``: ends of the 90 % interval."""
 
     x: np.ndarray
     y: np.ndarray
@@ -120,14 +120,14 @@ class Curve:
 
 
 def curve(rows: pd.DataFrame, x: str, y: str, label: str = "", **further: Any) -> Curve:
-    """A curve of two columns of a table, with the 90 % interval where the table has it."""
+    """Curve of two columns of a table, with the 90 % interval if the table has it."""
     low, high = (rows[name].to_numpy() if (name := f"{y}_{end}90") in rows else None for end in ("low", "high"))
     return Curve(rows[x].to_numpy(), rows[y].to_numpy(), label, low=low, high=high, **further)
 
 
 @dataclass(frozen=True)
 class Panel:
-    """One panel of a figure: the words of its axes with units, and its curves; those of one group share a colour."""
+    """Panel of a figure: axis labels with units, and curves; curves of a group share a colour."""
 
     across: str
     up: str
@@ -137,12 +137,12 @@ class Panel:
 
 
 Drawing = tuple[Panel, ...] | Callable[[], "Figure | None"]
-"""A figure: its panels, or the function that draws it."""
+"""Figure: panels, or the function that draws it."""
 
 
 @dataclass(frozen=True)
 class CaseDraft:
-    """A case folder to be written: tables of ``system.toml``, columns of ``recordings.csv``, files that it names."""
+    """Contents of a case folder: tables of ``system.toml``, columns of ``recordings.csv`` and attached files."""
 
     system: Mapping[str, Any]
     columns: Mapping[str, np.ndarray]
@@ -151,9 +151,10 @@ class CaseDraft:
 
 @dataclass(frozen=True)
 class Result:
-    """Tables by the name of their file (frames or `LongTable`), figures by theirs, lines for the user, and a case.
+    """Tables by file name (frames or `LongTable`), figures by name, lines for the user, and a case.
 
-    ``files`` are further files by name, as friction laws for studies; ``columns`` describes the columns by table.
+    ``files``: further files by name, such as friction laws for studies; ``columns``: descriptions of the columns by
+    table.
     """
 
     title: str
@@ -167,5 +168,5 @@ class Result:
     captions: Mapping[str, str] = field(default_factory=dict)
 
     def described(self, table: str, names: Collection[str]) -> list[ResultColumn]:
-        """The columns of a table with their units and meanings."""
+        """Declared columns of a table, with units and meanings."""
         return [declared(self.columns.get(table, ()), name) for name in names]

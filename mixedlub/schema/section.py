@@ -1,4 +1,4 @@
-"""A table of a TOML file as a class whose fields describe its keys: type, default, meaning, example and range."""
+"""Tables of a TOML file as classes with fields that describe the keys: type, default, meaning, example and range."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def _number_or_name(value: Any) -> Any:
 
 
 def one_of(value: str, known: Iterable[str]) -> str:
-    """The value, or an error that names the known ones; for choices that are known only when a file is read."""
+    """Return a value of a choice known only when a file is read; raise an error with the known values otherwise."""
     *others, last = (repr(name) for name in known)
     if repr(value) not in (*others, last):
         expected = f"{', '.join(others)} or {last}" if others else last
@@ -60,7 +60,7 @@ Number = Annotated[Float, Field(allow_inf_nan=False)]
 Whole = Annotated[int, BeforeValidator(_whole)]
 NumberOrName = Annotated[Any, BeforeValidator(_number_or_name)]
 NAME = "NAME"
-"""Placeholder for the name that the user gives a table."""
+"""Placeholder for a user-given table name."""
 
 
 def key(
@@ -73,10 +73,10 @@ def key(
     alternative: bool = False,
     **constraints: Any,
 ) -> Any:
-    """A field that describes a key; without a default the key must be given.
+    """Field that describes a key, which is required without a default.
 
-    ``example`` is a value consistent with the examples of the other keys, by default the default; ``values`` is the
-    meaning of each value of a choice; an ``alternative`` replaces other keys.
+    ``example``: value consistent with the examples of other keys, by default the default; ``values``: meaning of each
+    value of a choice; ``alternative``: the key replaces other keys.
     """
     extra: dict[str, Any] = {"values": dict(values or {}), "unit": unit, "alternative": alternative}
     examples = None if example is None else [example]
@@ -84,9 +84,9 @@ def key(
 
 
 class Section(BaseModel):
-    """A table of a file: unknown keys are errors; values are immutable and within the range of their field.
+    """Table of a file: unknown keys are errors; values are immutable and within their range.
 
-    Control characters in texts are replaced by their escapes, so that no title or name commands a terminal.
+    Control characters in texts are escaped, so that no title or name commands a terminal.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -102,7 +102,7 @@ class Section(BaseModel):
 
 
 def check_keys_of(section: Section, option: str, takes: Mapping[str, Sequence[str]]) -> None:
-    """Ask for the keys that the chosen value of an option takes, and refuse those that act only with another value."""
+    """Raise an error for missing keys of the chosen value of an option and for keys without effect at this value."""
     chosen = getattr(section, option)
     for name in takes[chosen]:
         if getattr(section, name) is None:
@@ -117,7 +117,7 @@ def check_keys_of(section: Section, option: str, takes: Mapping[str, Sequence[st
 
 @dataclass(frozen=True)
 class Key:
-    """A key described by its field; ``table`` is the dotted name of its table."""
+    """Key described by its field; ``table``: dotted name of its table."""
 
     table: str
     name: str
@@ -125,56 +125,56 @@ class Key:
 
     @property
     def type(self) -> Any:
-        """Its type: a class, or a tuple, dictionary or choice of such."""
+        """Type of the key: a class, or a tuple, dictionary or choice of such."""
         return plain(self.field.annotation)
 
     @property
     def required(self) -> bool:
-        """Whether it must be given."""
+        """Whether the key must be given."""
         return self.field.is_required()
 
     @property
     def meaning(self) -> str:
-        """Its meaning, without its unit."""
+        """Meaning of the key without its unit."""
         return self.field.description or ""
 
     @property
     def example(self) -> Any:
-        """A value consistent with the examples of the other keys of its table; None where it has no example."""
+        """Value consistent with the examples of the other keys of the table, or None."""
         if self.field.examples:
             return self.field.examples[0]
         return None if self.required or isinstance(self.field.default, (BaseModel, dict)) else self.field.default
 
     @property
     def unit(self) -> str:
-        """Its unit; empty where it has none."""
+        """Unit of the key, or empty."""
         return self._extra["unit"] or unit_of(self.name)
 
     @property
     def words(self) -> str:
-        """Its meaning with its unit."""
+        """Meaning of the key with its unit."""
         unit = unit_of(self.name)
         what, mark, rest = self.meaning.partition(";")
         return f"{what} ({unit}){mark}{rest}" if unit else self.meaning
 
     @property
     def values(self) -> Mapping[str, str]:
-        """The meaning of each value of a choice."""
+        """Meaning of each value of a choice."""
         return self._extra["values"]
 
     @property
     def is_alternative(self) -> bool:
-        """Whether it replaces other keys, so that their examples exclude its own."""
+        """Whether the key replaces other keys, so that their examples exclude its example."""
         return self._extra["alternative"]
 
     @property
     def is_looked_up(self) -> bool:
-        """Whether its values are names of parts that are declared elsewhere."""
+        """Whether the values are names of parts declared elsewhere."""
         return any(isinstance(m, AfterValidator) for m in self.field.metadata)
 
     @property
     def range(self) -> Range | None:
-        """Its possible and typical values, entry by entry for a list."""
+        """Possible and typical values of the key; for lists, of each entry."""
         return range_of(self.field)
 
     @property
@@ -184,7 +184,7 @@ class Key:
 
 @dataclass(frozen=True)
 class FileTable:
-    """A table of a file: the class of its keys, its meaning, and its dotted name with NAME for user-given names."""
+    """Table of a file: class of its keys, meaning, and dotted name with NAME for user-given names."""
 
     model: type[Section]
     meaning: str
@@ -192,26 +192,26 @@ class FileTable:
 
     @property
     def name(self) -> str:
-        """The dotted name without user-given names."""
+        """Dotted name without user-given names."""
         return self.title.replace(f".{NAME}", "")
 
     @property
     def fields(self) -> tuple[Key, ...]:
-        """All its keys, nested tables included."""
+        """All keys of the table, nested tables included."""
         return tuple(Key(self.name, f.alias or name, f) for name, f in self.model.model_fields.items())
 
     def __getitem__(self, name: str) -> Key:
-        """The key of a name."""
+        """Key of a name."""
         return next(key for key in self.fields if key.name == name)
 
     @property
     def keys(self) -> tuple[Key, ...]:
-        """Its keys without nested tables, required ones first."""
+        """Keys without nested tables, required keys first."""
         return tuple(sorted((k for k in self.fields if section_in(k.type) is None), key=lambda k: not k.required))
 
 
 def plain(annotation: Any) -> Any:
-    """A type without annotations and without None.
+    """Type without annotations and None.
 
     >>> plain(Number | None), plain(Annotated[tuple[int, ...], Field(min_length=1)])
     (<class 'float'>, tuple[int, ...])
@@ -226,7 +226,7 @@ def plain(annotation: Any) -> Any:
 
 
 def section_in(annotation: Any) -> type[Section] | None:
-    """The class of the table, or of the named tables, that a type describes."""
+    """Class of the table, or of named tables, in a type; None otherwise."""
     found = plain(annotation)
     if get_origin(found) is dict:
         found = get_args(found)[1]
@@ -234,7 +234,7 @@ def section_in(annotation: Any) -> type[Section] | None:
 
 
 def tables(model: type[Section], meaning: str = "", title: str = "") -> Iterator[FileTable]:
-    """A table (the whole file has an empty title) and all its nested tables."""
+    """Yield a table (empty title: the whole file) and all its nested tables."""
     own = FileTable(model, meaning, title)
     yield own
     for key in own.fields:
@@ -245,7 +245,7 @@ def tables(model: type[Section], meaning: str = "", title: str = "") -> Iterator
 
 
 def table(file: type[Section], name: str) -> FileTable:
-    """The table with a dotted name, without user-given names; StopIteration where there is none."""
+    """Table of a dotted name without user-given names; StopIteration if unknown."""
     return next(found for found in tables(file) if found.name == name)
 
 
@@ -264,7 +264,7 @@ def examples(model: type[Section]) -> dict[str, Any]:
 
 
 def needed(model: type[Section]) -> tuple[str, ...]:
-    """Keys of a table that the examples of the others require; none where the table may be empty."""
+    """Keys of a table required by the examples of the others; empty if the table may be empty."""
     if is_valid(model, {}):
         return ()
     every = examples(model)
@@ -272,7 +272,7 @@ def needed(model: type[Section]) -> tuple[str, ...]:
 
 
 def is_valid(model: type[Section], data: Mapping[str, Any]) -> bool:
-    """Whether a table may have these keys and no others."""
+    """Whether a table of exactly these keys is valid."""
     try:
         model.model_validate(data)
     except ValidationError:

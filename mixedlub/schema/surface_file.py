@@ -1,4 +1,4 @@
-"""Format of a surface in `system.toml`: its moments, or the traces or the map that they come from."""
+"""Format of a surface in `system.toml`: moments, or traces or a map with these moments."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from mixedlub.schema.section import Number, Section, key
 Files = Annotated[tuple[str, ...], Field(min_length=1)]
 
 STEEL = {"conductivity": 46.0, "density": 7800.0, "heat_capacity": 470.0}
-"""Judgement. Thermal conductivity (W/(m K)), density (kg/m^3) and specific heat (J/(kg K)) of gear steels, whose
-density handbooks have as 7,750 to 7,850."""
+"""Judgement. Thermal conductivity (W/(m K)), density (kg/m^3) and specific heat (J/(kg K)) of gear steels;
+density in handbooks: 7,750 to 7,850."""
 SURFACE_FILES = ("profile", "traces", "traces_along", "map")
-"""Keys of a surface that name files."""
+"""Keys of a surface with file names."""
 
 
 class Coating(Section):
@@ -93,17 +93,17 @@ class SurfaceSection(Section):
 
     @property
     def files(self) -> tuple[str, ...]:
-        """Its traces across the lay, or in the one direction that is known."""
+        """Traces across the lay, or in the only known direction."""
         return self.traces or (() if self.profile is None else (self.profile,))
 
     @property
     def is_measured(self) -> bool:
-        """Whether its moments come from traces or a map."""
+        """Whether the moments come from traces or a map."""
         return bool(self.files) or self.map is not None
 
     @property
     def has_two_directions(self) -> bool:
-        """Whether it is known across and along its lay."""
+        """Whether the surface is known across and along its lay."""
         return self.map is not None or self.traces_along is not None or self.m2_along is not None
 
     @model_validator(mode="after")

@@ -1,4 +1,4 @@
-"""Format of `system.toml`: one class per table, each key described by its field; ranges are in `ranges.toml`."""
+"""Format of `system.toml`: one class per table, one field per key; ranges are in `ranges.toml`."""
 
 from __future__ import annotations
 
@@ -27,16 +27,16 @@ def _known_quantity(name: str) -> str:
 
 
 KINDS = ("mixedlub.kinds", "mixedlub.kinds", "KIND")
-"""Module that declares the kinds of recording; imported only when a file is read, since it imports this one."""
+"""Module with the kinds of recording, imported only when a file is read because it imports this module."""
 Pair = tuple[Number, Number]
 
 SHARING: tuple[Any, ...] = declared("mixedlub.gear.sharing", "mixedlub.load_sharing", "MODEL")
-"""Load-sharing models, each with its name, meaning and keys."""
+"""Load-sharing models, each with name, meaning and keys."""
 _NAMED = {model.name: model.meaning for model in SHARING if not model.chosen_by}
 
 
 def _sharing_keys() -> Any:
-    """The keys of all load-sharing models: those that select one by themselves, ``model``, and the others."""
+    """Keys of all load-sharing models: keys that select a model by themselves, ``model``, and the others."""
     model: Any = key("how the load divides between tooth pairs; this or table", None, example="ldp", values=_NAMED)
     names: Any = Literal[tuple(_NAMED)]
     name = create_model("ModelName", __base__=Section, model=(names | None, model))
@@ -52,7 +52,7 @@ _SharingKeys: Any = _sharing_keys()
 class LoadSharing(_SharingKeys):
     @property
     def chosen(self) -> Any:
-        """The model selected by the keys."""
+        """Model selected by the keys."""
         return self._choices()[0]
 
     def _choices(self) -> list[Any]:
@@ -69,7 +69,7 @@ class LoadSharing(_SharingKeys):
 
     @model_validator(mode="after")
     def _keys_of_the_model(self) -> LoadSharing:
-        """Refuse a modification that the chosen model would ignore; one of zero changes nothing."""
+        """Raise an error for a nonzero modification ignored by the chosen model."""
         for name in self.model_fields_set - self.chosen.keys.model_fields.keys() - {"model"}:
             if getattr(self, name) != type(self).model_fields[name].default:
                 takers = " or ".join(f'"{one.name}"' for one in SHARING if name in one.keys.model_fields)
@@ -108,7 +108,7 @@ class Gears(Section):
     @model_validator(mode="before")
     @classmethod
     def _of_its_preset(cls, given: Any) -> Any:
-        """Complete the section by what its preset says."""
+        """Complete the section by its preset."""
         named = given.get("preset") if isinstance(given, Mapping) else None
         return with_preset(given) if isinstance(named, str) else given
 
@@ -208,7 +208,7 @@ class Lubricant(Section):
     @model_validator(mode="before")
     @classmethod
     def _of_its_oil(cls, given: Any, info: ValidationInfo) -> Any:
-        """Complete the section by what its oil says."""
+        """Complete the section by its oil."""
         named = given.get("oil") if isinstance(given, Mapping) else None
         return given if not isinstance(named, str) else with_oil(given, (info.context or {}).get("folder", Path()))
 
@@ -235,12 +235,12 @@ class Noise(Section):
 
     @property
     def of_single(self) -> bool:
-        """Whether it states the scatter of single readings."""
+        """Whether the scatter of single readings is stated."""
         return self.relative > 0 or self.absolute > 0
 
     @property
     def of_setups(self) -> bool:
-        """Whether it states the error common to a set-up."""
+        """Whether the error common to a set-up is stated."""
         return self.setup_relative > 0 or self.setup_absolute > 0
 
 
@@ -261,7 +261,7 @@ class Recording(Section):
 
 
 class RigFile(Section):
-    """Tables on the rig that a case and a study share."""
+    """Tables on the rig common to cases and studies."""
 
     boundary_friction: Number = key("friction coefficient of touching asperities", 0.1)
     description: str = key("free text", "", example="rig, oil, campaign")
@@ -279,7 +279,7 @@ class RigFile(Section):
 
 
 class System(RigFile):
-    """The description of the rig in a case."""
+    """Description of the rig in a case."""
 
     schema_: Literal["mixedlub-case/1"] = key("format of the file", example="mixedlub-case/1", alias="schema")
     kind: Annotated[str, AfterValidator(_known_kind)] = key("what was recorded", example="gear_pair")
@@ -303,7 +303,7 @@ with_ranges(System)
 
 
 def in_file(error: InputError, file: str) -> InputError:
-    """Add file and table to an error about a key; an error that names its place is unchanged.
+    """Add file and table to an error about a key; an error with its place is unchanged.
 
     >>> print(in_file(InputError("teeth interfere", where="teeth", value=[5, 60]), "system.toml"))
     system.toml: gears.teeth: [5, 60]: teeth interfere

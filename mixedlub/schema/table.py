@@ -1,4 +1,4 @@
-"""Tables of readings and conditions, read from CSV; errors name the cell."""
+"""Tables of readings and conditions from CSV files; errors name the cell."""
 
 from __future__ import annotations
 
@@ -24,10 +24,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Column:
-    """Description of a column: a number within bounds, an integer, or a name (one of ``names`` if given).
+    """Description of a column: a number within bounds, an integer, or a name (among ``names`` if given).
 
-    Where ``optional_cells`` are allowed, an empty cell is nan. ``words`` are the names used in instrument files,
-    ``hints`` are ambiguous ones.
+    ``optional_cells``: empty cells are nan. ``words``: names in instrument files; ``hints``: ambiguous names.
     """
 
     name: str
@@ -47,7 +46,7 @@ class Column:
         return value > self.above and self.at_least <= value <= self.at_most
 
     def parse(self, text: str, where: str) -> float | int | str:
-        """The cell's value, or an error that names the place."""
+        """Value of a cell; raise an error with the place if it is invalid."""
         text = text.strip()
         if self.dtype == "name":
             if not text:
@@ -77,7 +76,7 @@ class Column:
         return value
 
     def parse_all(self, cells: Sequence[str]) -> np.ndarray | None:
-        """The values of all cells at once; None where a cell is empty or invalid, which ``parse`` reports."""
+        """Values of all cells; None if a cell is empty or invalid, for ``parse`` to report."""
         try:
             if self.dtype == "name":
                 names = {cell: self.parse(cell, self.name) for cell in set(cells)}
@@ -94,7 +93,7 @@ class Column:
 
 
 LARGEST = 2**53
-"""Largest integer that a double represents exactly."""
+"""Largest integer up to which doubles represent all integers."""
 PRINTED_MINUS = re.compile(r"(?:(?<=\d[eE])|(?<![\w)]))\u2212(?=[\d.,])")
 BLANK = ("", "-", "--", "---", "\u2013", "\u2014", "nan", "na", "n/a", "n.a.", "#n/a", "#nv", "null", "none")
 """Texts of an empty cell, in lower case."""
@@ -113,13 +112,13 @@ BOOKKEEPING = (
 
 
 def sd_column(quantity: str) -> Column:
-    """The standard deviations of the readings."""
+    """Column of the standard deviations of the readings."""
     meaning = "standard deviation of each reading; 0 or empty: not given; it overrides recording.noise"
     return Column(f"{quantity}_sd", at_least=0.0, required=False, optional_cells=True, meaning=meaning)
 
 
 def check_column(name: str) -> Column:
-    """A second channel."""
+    """Column of a second channel."""
     return Column(
         name, required=False, optional_cells=True, meaning="the column that recording.check names: never fitted"
     )
@@ -127,7 +126,7 @@ def check_column(name: str) -> Column:
 
 @dataclass(frozen=True)
 class Table:
-    """Columns of equal length by name; ``ignored`` are the other headers of the file."""
+    """Columns of equal length by name; ``ignored``: other headers of the file."""
 
     columns: Mapping[str, np.ndarray]
     source: str = "table"
@@ -143,7 +142,7 @@ class Table:
         return self.columns[name]
 
     def take(self, rows: np.ndarray) -> Table:
-        """The rows selected by a mask or index."""
+        """Rows selected by a mask or index."""
         return Table({name: column[rows] for name, column in self.columns.items()}, self.source)
 
 
@@ -157,7 +156,7 @@ def is_missing(cell: str) -> bool:
 
 
 def is_number(cell: str) -> bool:
-    """Whether a cell can be read as a number."""
+    """Whether a cell is a number."""
     try:
         number_of(cell)
     except ValueError:
@@ -177,7 +176,7 @@ def are_numbers(cells: Collection[str]) -> bool:
 
 
 def with_hyphens(text: str) -> str:
-    """Text with the typographic minus (U+2212) before numbers replaced by a hyphen.
+    """Text with a hyphen in place of the typographic minus (U+2212) before numbers.
 
     >>> with_hyphens("\u22120.5;1.2e\u22123;m s\u22121")
     '-0.5;1.2e-3;m s\u22121'
@@ -193,10 +192,10 @@ def read_table(
     first_run: int | None = None,
     imported: bool = False,
 ) -> Table:
-    """Read a CSV with the given columns, unique in the columns of ``key``; others are ignored and reported.
+    """Read a CSV with the given columns, unique in the columns of ``key``; other columns are ignored and reported.
 
-    Where there is no column ``run``, rows are numbered from ``first_run`` on, if that is given. Tables that
-    `mixedlub import` writes are ``imported``: messages on other formats and units name it.
+    Without a column ``run``, rows are numbered from ``first_run``, if given. ``imported``: table written by `mixedlub
+    import`, which messages on other formats and units then name.
     """
     where, advice = str(path), _IMPORTED if imported else _SAVED
     try:
@@ -233,9 +232,9 @@ def read_table(
 def csv_rows(
     numbered: Sequence[tuple[int, str]], where: str, separator: str = ",", *, headings: bool = False
 ) -> Iterator[tuple[int, list[str]]]:
-    """The cells of numbered lines; an error on a quoted cell that runs on into the next line.
+    """Cells of numbered lines; raise an error for a quoted cell that continues in the next line.
 
-    With ``headings`` a cell of words may run on, as in the headings of spreadsheets; a blank stands for the line end.
+    With ``headings``, cells of words may continue, as in headings of spreadsheets; a blank replaces the line end.
 
     >>> list(csv_rows([(3, 'a,"b, c"')], "t.csv"))
     [(3, ['a', 'b, c'])]
@@ -256,7 +255,7 @@ def csv_rows(
 
 
 def span(name: str, values: np.ndarray) -> str:
-    """A column in a few words: its lowest and highest number, or its names.
+    """Summary of a column: lowest and highest number, or names.
 
     >>> span("speed_rpm", np.array([500.0, 3000.0])), span("torque_Nm", np.array([50])), span("setup", np.array(["a"]))
     ('speed_rpm 500 to 3000', 'torque_Nm 50', 'setup a')
@@ -268,7 +267,7 @@ def span(name: str, values: np.ndarray) -> str:
 
 
 def frame_of(given: object, where: str) -> pd.DataFrame:
-    """A data frame as it is, or one of columns by name; anything else is an error at the place ``where``.
+    """Data frame as given, or from columns by name; raise an error at the place ``where`` otherwise.
 
     >>> frame_of({"speed_rpm": [150.0, 250.0], "load_N": 40.0}, "conditions").shape
     (2, 2)
@@ -288,7 +287,7 @@ def frame_of(given: object, where: str) -> pd.DataFrame:
 
 
 def table_of(frame: pd.DataFrame, columns: tuple[Column, ...], source: str = "table") -> Table:
-    """A table from a data frame, checked like a file; rows are numbered where there is no column ``run``."""
+    """Table from a data frame, checked like a file; rows are numbered without a column ``run``."""
     if RUN.name not in frame:
         frame = frame.assign(**{RUN.name: np.arange(1, len(frame) + 1)})
     rows = frame.astype(object).where(frame.notna(), "").astype(str).to_numpy().tolist()
@@ -306,7 +305,7 @@ def _table(
     *,
     imported: bool,
 ) -> Table:
-    """The table of a header and rows of cells, each with its line number (or row of a frame, as ``unit`` says)."""
+    """Table from a header and rows of cells, each with its number in ``unit`` (line of a file or row of a frame)."""
     if len(lines) < 2:
         raise InputError("needs a header line and at least one row", where=where)
     header = [cell.strip() for cell in lines[0][1]]
@@ -342,7 +341,7 @@ _CONVERTED = {True: "units are not converted here; `mixedlub import` does", Fals
 
 
 def _instead(column: Column, unknown: list[str], imported: bool) -> str:
-    """Hint on a missing column: the same in another unit, a similar name, or the names in the file.
+    """Hint on a missing column: the same column in another unit, a similar name, or the names in the file.
 
     >>> _instead(Column("speed_rpm"), ["sped_rpm", "colour"], True)
     "; the file has 'sped_rpm'"
@@ -361,7 +360,7 @@ def _instead(column: Column, unknown: list[str], imported: bool) -> str:
 
 
 def _ignored(file: str, unknown: list[str], absent: list[Column], imported: bool) -> Iterator[Finding]:
-    """Texts on unknown columns; those that may be an ``absent`` column are reported one by one."""
+    """Findings on unknown columns; a probable ``absent`` column has a separate finding."""
     converted = [other for column in absent if (other := _other_unit(column, unknown))]
     others = []
     for name in unknown:
@@ -377,7 +376,7 @@ def _ignored(file: str, unknown: list[str], absent: list[Column], imported: bool
 
 
 def _nearest_absent(name: str, absent: list[Column]) -> str | None:
-    """The absent column that an ignored one may be: one of the same unit or with a similar name.
+    """Absent column probably meant by an ignored column: of the same unit or a similar name.
 
     >>> _nearest_absent("load_Nm", [Column("load_N"), Column("torque_Nm"), Column("motor_torque_Nm")])
     'torque_Nm'
@@ -394,7 +393,7 @@ def _nearest_absent(name: str, absent: list[Column]) -> str | None:
 
 
 def _other_unit(column: Column, unknown: list[str]) -> str | None:
-    """The header of the same column in another unit that the import converts."""
+    """Header of the same column in another unit, convertible by the import."""
     for name in unknown:
         unit = split(name)[1]
         if unit and words_of(name) in (split(column.name)[0], *column.words) and fits(unit, read_as(column.name)):

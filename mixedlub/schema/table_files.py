@@ -1,4 +1,4 @@
-"""Tables as CSV, Parquet and a workbook, with the unit and meaning of every column."""
+"""Tables as CSV, Parquet and workbook, with unit and meaning of every column."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ if TYPE_CHECKING:
     from mixedlub.schema.result import ResultColumn
 
 THREADS = 2
-"""Threads that write numbers as text, which takes longest; each holds one table as text."""
+"""Threads that format numbers as text, the slowest step; each holds one table as text."""
 DIGITS = "%.12g"
-"""Digits of numbers in CSV files: parts add up to their total within 1e-9."""
+"""Format of numbers in CSV files, precise enough for parts to add up to their total within 1e-9."""
 FORMULA = r"^([=+\-@\t\r])"
-"""Begin of a text that a spreadsheet takes as a formula."""
+"""Start of a text read as a formula by spreadsheets."""
 MOST_SHEET_ROWS, LONGEST_SHEET_NAME = 1_048_574, 31
-"""Limits of a sheet of a workbook, two header rows left out."""
+"""Limits of a workbook sheet: rows besides two header rows, and length of its name."""
 
 
 @dataclass(frozen=True)
@@ -40,10 +40,10 @@ STYLES = {"plain": CsvStyle(), "german": CsvStyle(";", ",")}
 
 @dataclass(frozen=True)
 class LongTable:
-    """A table of any length in pieces of the same columns.
+    """Table of any length, in pieces with the same columns.
 
-    ``about`` is the metadata of the whole, ``quoted`` whether a text may need quotes or escapes in CSV, ``repeating``
-    the columns in which values repeat, ``csv`` whether it is short enough for CSV beside Parquet.
+    ``about``: metadata of the whole; ``quoted``: texts may need quotes or escapes in CSV; ``repeating``: columns with
+    repeated values; ``csv``: short enough for CSV beside Parquet.
     """
 
     pieces: Callable[[], Iterable[pa.Table]]
@@ -55,7 +55,7 @@ class LongTable:
 
 
 def escaped(text: Any) -> Any:
-    """A text that no spreadsheet takes as a formula; anything else as it is.
+    """Text safe from being read as a formula by spreadsheets; other values unchanged.
 
     >>> escaped("=1+1"), escaped("ground"), escaped(-1.0)
     ("'=1+1", 'ground', -1.0)
@@ -66,7 +66,7 @@ def escaped(text: Any) -> Any:
 def write_frame(
     table: pd.DataFrame, columns: Sequence[ResultColumn], csv: Path, parquet: Path, style: CsvStyle, title: str = ""
 ) -> None:
-    """Write a table into both files."""
+    """Write a table to a CSV and a Parquet file."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
@@ -79,7 +79,7 @@ def write_frame(
 def write_long(
     table: LongTable, columns: Sequence[ResultColumn], csv: Path, parquet: Path, style: CsvStyle = STYLES["plain"]
 ) -> None:
-    """Write the pieces of a table one after another into both files."""
+    """Write the pieces of a table to a CSV and a Parquet file."""
     import pyarrow.parquet as pq
 
     waiting: deque[Future[pa.Buffer]] = deque()
@@ -102,9 +102,9 @@ def write_long(
 def write_workbook(
     tables: Mapping[str, tuple[pd.DataFrame | LongTable, Sequence[ResultColumn]]], path: Path
 ) -> list[str]:
-    """Write a sheet a table: names and units in two frozen rows, then the values; a last sheet has the meanings.
+    """Write one sheet per table (names and units in two frozen rows, then values) and a last sheet of meanings.
 
-    Returns the tables that are too long for a sheet and left out.
+    Returns the names of tables too long for a sheet, which are left out.
     """
     from openpyxl import Workbook
 
@@ -137,13 +137,13 @@ def _rows(table: pd.DataFrame | LongTable) -> Iterator[Iterable[Any]]:
 
 
 def _cell(value: Any) -> Any:
-    """A value as a workbook has it: no formula, and empty in place of what is not a finite number."""
+    """Value for a workbook: formulas escaped, non-finite numbers empty."""
     value = value.item() if hasattr(value, "item") else value
     return None if isinstance(value, float) and value - value != 0.0 else escaped(value)
 
 
 def _as_text(table: pd.DataFrame, style: CsvStyle, *, header: bool = True) -> str:
-    """The table as CSV, with texts that no spreadsheet takes as a formula."""
+    """Table as CSV, with texts safe from being read as formulas."""
     texts = [name for name in table.columns if table[name].dtype.kind not in "fiub"]
     plain = table.assign(**{name: table[name].map(escaped) for name in texts}).rename(columns=escaped)
     sep, decimal = style.separator, style.decimal
@@ -172,7 +172,7 @@ def _as_csv(table: pa.Table, style: CsvStyle, *, header: bool, quoted: bool) -> 
 
 
 def _described(schema: pa.Schema, columns: Collection[ResultColumn], about: Mapping[str, str]) -> pa.Schema:
-    """The columns with unit and meaning, and the metadata of the table."""
+    """Schema with unit and meaning of each column and the metadata of the table."""
     import pyarrow as pa
 
     known = {c.name: {"unit": c.unit, "meaning": c.meaning} for c in columns}

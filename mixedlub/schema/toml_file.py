@@ -22,7 +22,7 @@ Comments = Mapping[str, Sequence[str]]
 
 
 def read_toml(path: Path) -> dict[str, Any]:
-    """The content of the file; invalid TOML is an error."""
+    """Content of the file; invalid TOML is an error."""
     try:
         refuse_no_file(path)
         text = path.read_text(encoding="utf-8-sig")
@@ -41,7 +41,7 @@ def read_toml(path: Path) -> dict[str, Any]:
 
 
 def _unreadable(error: str, lines: Sequence[str]) -> str:
-    """What is wrong with a text that is no TOML; a key given twice is named.
+    """Error message of invalid TOML; a duplicate key is named.
 
     >>> _unreadable("Cannot overwrite a value (at line 2, column 6)", ["a = 1", "a = 2"])
     "line 2 gives 'a' a second time; give it once"
@@ -54,7 +54,7 @@ def _unreadable(error: str, lines: Sequence[str]) -> str:
 
 
 def named_file(folder: Path, name: str, key: str) -> Path:
-    """A file named in a case or study, relative to its folder."""
+    """Path of a file named in a case or study, relative to its folder."""
     path = folder / name
     if path.is_dir():
         raise InputError("is a folder; name a file in it", where=key, value=name)
@@ -66,9 +66,9 @@ def named_file(folder: Path, name: str, key: str) -> Path:
 
 
 def parse(model: type[T], data: Mapping[str, Any], where: str) -> T:
-    """The validated section; the first error becomes a message that names place, value and rule.
+    """Validated section; the first error becomes a message with place, value and rule.
 
-    Files that it names are relative to the folder of ``where``.
+    Files named in the section are relative to the folder of ``where``.
     """
     try:
         return model.model_validate(data, context={"folder": Path(where).parent})
@@ -78,7 +78,7 @@ def parse(model: type[T], data: Mapping[str, Any], where: str) -> T:
 
 @contextmanager
 def keys_of(model: type[Section], path: Path) -> Iterator[None]:
-    """Add the file to errors whose place is a key of it; those that name a table beside it are unchanged."""
+    """Add the file to errors with a key as their place; errors about a table beside it are unchanged."""
     try:
         yield
     except InputError as error:
@@ -89,7 +89,7 @@ def keys_of(model: type[Section], path: Path) -> Iterator[None]:
 
 
 def _refused(model: type[Section], errors: list[Any], where: str) -> InputError:
-    """The error to report: another type of file first, then unknown keys, which explain missing ones."""
+    """Error to report: another type of file first, then unknown keys, which explain missing keys."""
     other = (e for e in errors if e["loc"] == ("schema",) and e["type"] == "literal_error")
     unknown = (e for e in errors if e["type"] == "extra_forbidden")
     first = next(chain(other, unknown), errors[0])
@@ -115,7 +115,7 @@ def _known_keys(model: type[Section], place: Sequence[Any]) -> list[str]:
 
 
 def toml_key(name: str) -> str:
-    """A key in TOML notation.
+    """Key in TOML notation.
 
     >>> toml_key("ground"), toml_key("Ra 0.4")
     ('ground', '"Ra 0.4"')
@@ -124,7 +124,7 @@ def toml_key(name: str) -> str:
 
 
 def toml_value(value: Any) -> str:
-    """A plain value, list or inline table in TOML notation.
+    """Plain value, list or inline table in TOML notation.
 
     >>> toml_value([17, 26.0, float("inf")]), toml_value({"model": "ldp", "lead_crown_um": 3})
     ('[17, 26.0, inf]', '{ model = "ldp", lead_crown_um = 3 }')
@@ -178,7 +178,7 @@ def _table(data: Mapping[str, Any], place: str, comments: Comments, written: set
 
 
 def default_of(key: Key) -> str:
-    """The default of a key in TOML notation; empty where it has no informative default."""
+    """Default of a key in TOML notation; empty without an informative default."""
     value = key.field.default
     silent = key.required or value in (None, "", {}) or isinstance(value, Section)
     return "" if silent else toml_value(value)

@@ -1,4 +1,4 @@
-"""The table of units: the meaning of name suffixes, the units accepted for each, and conversions."""
+"""Table of units: meaning of name suffixes, accepted units and conversions."""
 
 from __future__ import annotations
 
@@ -43,10 +43,10 @@ NAMED: Mapping[str, tuple[str | int | Fraction, str]] = {
     "degC": (1, "K"),
     "degF": ("5/9", "K"),
 }
-"""Units in terms of others, as exact numbers, so that conversions are rounded once."""
+"""Units in terms of others, as exact numbers to round conversions only once."""
 PREFIXES = {"T": 12, "G": 9, "M": 6, "k": 3, "c": -2, "m": -3, "u": -6, "n": -9}
 ZEROS = {"degC": Fraction("273.15"), "degF": Fraction("459.67") * Fraction(5, 9)}
-"""Zero points of scales of temperature (K)."""
+"""Zero points of temperature scales (K)."""
 
 _TABLE = """
 # ending | shown    | units that a column is read in, a spelling = the unit it is | units that a slip is recognised in
@@ -98,17 +98,17 @@ N_um     | N/µm
 Hz       | Hz
 """
 _AS_WRITTEN = ("lbf", "kgf", "kg", "g", "psi", "kPa", "bar", "atm", "kN", "kW", "min", "K", "km", "h")
-"""Header suffixes that are the unit itself."""
+"""Header suffixes identical to the unit."""
 UNSURE: dict[str, dict[str, tuple[str, ...]]] = {"rpm": {"1/s": ("rev/s", "rad/s")}}
-"""Ambiguous spellings by the unit of a column, with the units that each may mean."""
+"""Ambiguous spellings by the unit of a column, with their possible units."""
 SIGNS = str.maketrans({**dict.fromkeys("µμ", "u"), **dict.fromkeys("·⋅*", "."), **dict.fromkeys("⁻−", "-")})
 SIGNS |= str.maketrans({"°": "deg", "¹": "1", "²": "2", "³": "3", "^": ""})
-"""Spellings of units and their form in the table."""
+"""Characters in spellings of units and their form in the table."""
 
 
 @cache
 def measure(unit: str) -> tuple[Fraction, Powers]:
-    """Size of a unit in SI and its powers of kilogram, metre, second and kelvin; KeyError where it is not known.
+    """Size of a unit in SI and its powers of kilogram, metre, second and kelvin; KeyError if unknown.
 
     >>> measure("mW/(m K)"), measure("1/GPa")
     ((Fraction(1, 1000), (1, 1, -3, -1)), (Fraction(1, 1000000000), (-1, 1, 2, 0)))
@@ -145,7 +145,7 @@ def dimension(unit: str) -> Powers:
 
 
 def change(unit: str, wanted: str) -> tuple[float, float]:
-    """Factor and offset from one unit to another of the same dimension.
+    """Factor and offset between units of the same dimension.
 
     >>> change("kPa", "MPa"), change("K", "degC"), change("um2", "mm2")
     ((0.001, 0.0), (1.0, -273.15), (1e-06, 0.0))
@@ -157,7 +157,7 @@ def change(unit: str, wanted: str) -> tuple[float, float]:
 
 
 def tidy(unit: str) -> str:
-    """A unit in the spelling of the table.
+    """Unit in the spelling of the table.
 
     >>> tidy("µm"), tidy("°C"), tidy("N·m"), tidy("N m"), tidy("Pa s"), tidy("ft-lb")
     ('um', 'degC', 'N.m', 'N.m', 'Pa.s', 'ft.lb')
@@ -192,12 +192,12 @@ def _read() -> tuple[dict[str, str], dict[str, Changes], dict[str, Changes]]:
 
 
 ENDINGS, UNITS, SLIPS = _read()
-"""By name suffix, longer ones first: the displayed unit; the units accepted for a column (``ratio`` for a number
-without unit); the units in which a number outside its range may have been given."""
+"""By name suffix, longer suffixes first: displayed unit; accepted units (``ratio``: dimensionless); probable units of
+numbers outside their range."""
 
 
 def unit_of(name: str) -> str:
-    """The unit at the end of a name; empty where it has none.
+    """Unit at the end of a name, or empty.
 
     >>> unit_of("oil_temperature_C"), unit_of("kinematic_viscosity_mm2_s"), unit_of("m4_per_um2"), unit_of("teeth")
     ('°C', 'mm²/s', '1/µm²', '')
@@ -206,7 +206,7 @@ def unit_of(name: str) -> str:
 
 
 def without_unit(name: str) -> str:
-    """A name without its unit suffix.
+    """Name without its unit suffix.
 
     >>> without_unit("oil_temperature_C"), without_unit("teeth")
     ('oil_temperature', 'teeth')
@@ -215,17 +215,17 @@ def without_unit(name: str) -> str:
 
 
 def ending_of(name: str) -> str:
-    """The unit suffix of a name; empty where it has none."""
+    """Unit suffix of a name, or empty."""
     return next((ending for ending in ENDINGS if name.endswith(f"_{ending}")), "")
 
 
 def read_as(column: str) -> str:
-    """The row of UNITS for the numbers of a column."""
+    """Row of UNITS for the numbers of a column."""
     return ending_of(column) or "ratio"
 
 
 def split(header: str) -> tuple[str, str | None]:
-    """Words and unit of a header such as ``Rolling Speed (mm/s)``; the unit is None where there is none.
+    """Words and unit (or None) of a header such as ``Rolling Speed (mm/s)``.
 
     >>> split("Rolling Speed (mm/s)"), split("temperature_degC"), split("Load")
     (('rolling speed', 'mm/s'), ('temperature', '°C'), ('load', None))
@@ -239,7 +239,7 @@ def split(header: str) -> tuple[str, str | None]:
 
 
 def _of_name(name: str) -> tuple[str, str | None]:
-    """Words and unit of a name with underscores; a unit over another is known without a row of its own.
+    """Words and unit of a name with underscores; quotients of units need no separate row in the table.
 
     >>> _of_name("speed_um_s"), _of_name("speed_m_s"), _of_name("shear_rate_1_s"), _of_name("time_s")
     (('speed', 'um/s'), ('speed', 'm/s'), ('shear_rate', '1/s'), ('time', 's'))
@@ -251,7 +251,7 @@ def _of_name(name: str) -> tuple[str, str | None]:
 
 
 def words_of(header: str) -> str:
-    """The words of a header without its unit, a channel name before a dot, and a trailing dot.
+    """Words of a header without unit, channel name before a dot, and trailing dot.
 
     >>> words_of("DAQ.COF ()"), words_of("Test Time (s)"), words_of("friction coeff.")
     ('cof', 'test time', 'friction coeff')
@@ -260,7 +260,7 @@ def words_of(header: str) -> str:
 
 
 def change_to(unit: str, wanted: str) -> tuple[float, float] | None:
-    """Factor and offset from a written unit to a unit of UNITS; None where it is not known.
+    """Factor and offset from a written unit to a unit of UNITS; None if unknown.
 
     Case is ignored unless it distinguishes milli from mega or two of the units, or the unit is a single letter.
 
@@ -285,7 +285,7 @@ FORMS = {
 
 
 def open_units(unit: str, wanted: str) -> tuple[str, ...]:
-    """The units that an ambiguous spelling may mean; empty where it is unambiguous.
+    """Possible units of an ambiguous spelling; empty if unambiguous.
 
     >>> open_units("s⁻¹", "rpm"), open_units("1/min", "rpm")
     (('rev/s', 'rad/s'), ())
@@ -299,7 +299,7 @@ def fits(unit: str, wanted: str) -> bool:
 
 
 def units_of(wanted: str) -> tuple[str, ...]:
-    """The units accepted for a column, each in one spelling.
+    """Units accepted for a column, each in one spelling.
 
     >>> units_of("rpm"), units_of("ratio")
     (('rpm', 'rad/s', 'deg/s', 'rev/s'), ('-', '%'))
@@ -318,7 +318,7 @@ DIGITS = 15
 
 
 def rounded(values: np.ndarray, beside: float = 0.0) -> np.ndarray:
-    """Values to 15 significant digits, of the larger where they were added to ``beside``.
+    """Values rounded to 15 significant digits, of the larger of each value and ``beside``, to which values were added.
 
     >>> rounded(np.array([0.1 + 0.2])).tolist(), rounded(np.array([3600.0 + 0.7 - 3600.0]), 3600.0).tolist()
     ([0.3], [0.7])
