@@ -1,4 +1,4 @@
-"""The two exceptions a user of this project is meant to read."""
+"""The two exceptions meant for users."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class InputError(ValueError):
 
 
 def as_path(given: object, where: str) -> Path:
-    """The path that a caller names as text or as a path; anything else is an error at the place ``where``.
+    """Path of a text or a path; anything else is an error at the place ``where``.
 
     >>> as_path(None, "read")
     Traceback (most recent call last):
@@ -38,7 +38,7 @@ def as_path(given: object, where: str) -> Path:
 
 
 def refuse_other(given: object, kind: type, made: str, where: str) -> None:
-    """An error at the place ``where`` if an argument is of another kind; ``made`` is how one of that kind is had.
+    """Raise an error at the place ``where`` if an argument is of another type; ``made`` names the type for the message.
 
     >>> refuse_other("study.toml", int, "a whole number", "mesh: points")
     Traceback (most recent call last):
@@ -50,7 +50,7 @@ def refuse_other(given: object, kind: type, made: str, where: str) -> None:
 
 
 def refuse_masked(given: object, where: str) -> None:
-    """An error where entries of an array are masked: as plain numbers they would count.
+    """Raise an error if entries of an array are masked: as plain numbers they would count.
 
     >>> import numpy as np
     >>> refuse_masked(np.ma.array([1.0, 9.0], mask=[False, True]), "torque_Nm")
@@ -66,7 +66,7 @@ def refuse_masked(given: object, where: str) -> None:
 
 
 def refuse_no_file(path: Path) -> None:
-    """An error where a path leads to no file of data: reading a pipe never ends, nor does a device."""
+    """Raise an error if a path leads to no regular file: reading a pipe or a device never ends."""
     if not path.exists():
         raise InputError("no such file", where=str(path))
     if path.is_dir():
@@ -76,11 +76,11 @@ def refuse_no_file(path: Path) -> None:
 
 
 class RunError(RuntimeError):
-    """A run that stopped through no fault of its input: the message says what happened and how to go on."""
+    """A run stopped by other causes than its input: the message states the cause and how to go on."""
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
-    """A hint naming the known word closest to a misspelt one, or the words there are.
+    """Hint with the known word closest to a misspelt word, or with all known words.
 
     >>> nearest("torqe_Nm", ["torque_Nm", "speed_rpm"])
     "nearest known: 'torque_Nm'"

@@ -1,7 +1,5 @@
-"""Recipes of finishing processes, and what service and handling do to a surface: run-in, scratches, pits.
-
-Each returns the trace with moments measured from it, for none of these surfaces is Gaussian as a whole.
-"""
+"""Recipes of finishing processes, and of changes in service and handling: run-in, scratches, pits. Each returns the
+trace with moments measured from it, for none of these surfaces is Gaussian as a whole."""
 
 from __future__ import annotations
 
@@ -33,7 +31,7 @@ def ground(
 
 
 def hobbed(*, feed: float, radius: float, rms: float, points: int, spacing: float, seed: int) -> Synthetic:
-    """Along the feed of hobbing or turning: cusps of tool radius R one feed f apart, with a ground texture on them.
+    """Along the feed of hobbing or turning: cusps of tool radius R at a distance of the feed f, with a ground texture.
 
     .. math:: z = x^2/2R \\;\\text{for}\\; |x| \\le f/2, \\quad \\text{cusp height} = f^2/8R
 
@@ -60,10 +58,10 @@ def honed(
     seed: int,
     rolloff: float = 60e-6,
 ) -> Synthetic:
-    """Plateau honing: the lower of a fine and a coarse Gaussian surface, as two cuts one after the other leave it.
+    """Plateau honing: the lower of a fine and a coarse Gaussian surface, as left by two cuts in turn.
 
-    ``plateau_share`` is the share of the profile that the fine cut covers: the knee Rmq of the probability plot,
-    whose two slopes are the two rms heights (m). Whitehouse, Proc. IMechE 199 (1985); ISO 13565-3.
+    ``plateau_share``: share of the profile covered by the fine cut, the knee Rmq of the probability plot; the two
+    slopes of the plot are the two rms heights (m). Whitehouse, Proc. IMechE 199 (1985); ISO 13565-3.
 
     >>> t = honed(5e-8, 8e-7, plateau_share=0.8, points=20000, spacing=5e-7, seed=2)
     >>> w = t.profile.heights; bool(np.mean(w**3) / np.mean(w**2)**1.5 < -1.5)
@@ -85,10 +83,8 @@ def honed(
 def superfinished(
     rms: float, *, base_rms: float, removed_share: float, points: int, spacing: float, seed: int
 ) -> Synthetic:
-    """Superfinishing: a ground surface whose peaks are cut to a plateau, with a fine texture of ``rms`` on it.
-
-    ``removed_share`` is the share of the length the stone has touched.
-    """
+    """Superfinishing: a ground surface with peaks cut to a plateau and a fine texture of ``rms`` on it.
+    ``removed_share``: share of the length touched by the stone."""
     worn = run_in(ground(base_rms, points=points, spacing=spacing, seed=seed).profile, removed_share).profile
     fine = ground(rms, rolloff=15e-6, points=points, spacing=spacing, seed=seed + 1).profile.heights
     return measured(_with(worn, "superfinished", worn.heights + fine))
@@ -97,7 +93,7 @@ def superfinished(
 def run_in(profile: Profile, share: float, *, left: float = 0.05) -> Synthetic:
     """Run-in truncation: peaks above the height that ``share`` of the surface exceeds are worn down.
 
-    What stands above that height keeps ``left`` of its height, for worn plateaus are smooth, not flat.
+    Peaks keep the fraction ``left`` of their excess over that height, for worn plateaus are smooth, not flat.
 
     >>> t = run_in(Profile(np.array([0.0, 4.0, 0.0, 1.0, 0.0, 1.0]) * 1e-6, 1e-6), 1 / 6, left=0.0)
     >>> t.profile.steps
@@ -150,7 +146,7 @@ def pitted(profile: Profile, *, count: int, depth: float, width: float, seed: in
 def _scattered(
     profile: Profile, count: int, depth: float, width: float, seed: int, where: str
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Places, one in each equal part of the trace, and depths of which the last is the whole."""
+    """Places, one in each equal part of the trace, and depths, the largest equal to ``depth``."""
     room = profile.length / max(count, 1)
     if not (count >= 1 and depth > 0 and math.isfinite(depth) and 2 * profile.spacing < width < room / 2):
         raise InputError(

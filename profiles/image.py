@@ -1,4 +1,4 @@
-"""Profiles out of pictures: a trace across an areal height map, and a curve digitised from a chart."""
+"""Profiles from pictures: a trace across an areal height map, and a curve digitised from a chart."""
 
 from __future__ import annotations
 
@@ -75,10 +75,10 @@ def read_map(path: str | os.PathLike[str]) -> HeightMap:
 
 
 def across(area: HeightMap, start: tuple[float, float], end: tuple[float, float], *, order: int = 3) -> Profile:
-    """The trace along the straight line between two places (x, y in m) of a map.
+    """Trace along the straight line between two places (x, y in m) of a map.
 
-    Sampled at the finer of the two spacings, by splines of the given ``order`` (1 linear, 3 cubic); a point is
-    masked where a missing one is a neighbour. A diagonal trace holds no waves shorter than two grid steps.
+    Sampled at the finer of the two spacings, by splines of the given ``order`` (1 linear, 3 cubic); points next to
+    missing heights are masked. A diagonal trace holds no waves shorter than two grid steps.
 
     >>> ramp = HeightMap(np.outer(np.ones(5), np.arange(9.0)) * 1e-6, 1e-6, 1e-6)
     >>> across(ramp, (0.0, 2e-6), (8e-6, 2e-6), order=1).heights[:3] * 1e6
@@ -143,12 +143,11 @@ def digitised(
 ) -> Profile:
     """The curve of one colour in a chart, one point a pixel column.
 
-    ``box`` is the plotting area in pixels (left, top, right, bottom); its edges stand for ``x_range`` and
-    ``z_range`` (m; left to right, bottom to top). Pixels within ``tolerance`` (CIELAB distance) of the
-    ``colour`` (red, green, blue, 0 to 255) belong to the curve; grid lines of that colour and specks are
-    dropped. The height of a column is the middle of its pixels; empty columns are bridged and masked. The
-    error is half a pixel where the curve is flat and half its vertical run where it is steep; ``origin``
-    keeps the pixel's height.
+    ``box`` is the plotting area in pixels (left, top, right, bottom); its edges stand for ``x_range`` and ``z_range``
+    (m; left to right, bottom to top). Pixels within ``tolerance`` (CIELAB distance) of the ``colour`` (red, green,
+    blue, 0 to 255) belong to the curve; grid lines of that colour and specks are dropped. The height of a column is the
+    middle of its pixels; empty columns are bridged and masked. The error is half a pixel where the curve is flat and
+    half its vertical run in a steep column; ``origin`` keeps the pixel's height.
     """
     from skimage import color, io, measure, util
 

@@ -14,12 +14,12 @@ SWEEPS = 40
 
 
 def non_gaussian(base: Synthetic, *, skewness: float, kurtosis: float) -> Synthetic:
-    """A trace with the given Rsk and Rku, the rms height and nearly the spectrum of a Gaussian one.
+    """Trace with the given Rsk and Rku, the rms height and nearly the spectrum of a Gaussian trace.
 
-    The heights are those of a Johnson distribution, fitted so that the sample's own moments are the given ones
-    to 1e-6; they are put in the order of the base trace, and order and spectrum are then reconciled by turns
-    (iterated amplitude-adjusted Fourier transform), heights last. Kurtosis must exceed 1.2 + skewness^2.
-    Moments are measured, for m2 and m4 depend on how far the spectrum could be kept.
+    The heights follow a Johnson distribution, fitted so that the moments of the sample are exact to 1e-6; they are put
+    in the order of the base trace, and order and spectrum are then reconciled by turns (iterated amplitude-adjusted
+    Fourier transform), heights last. Kurtosis must exceed 1.2 + skewness^2. Moments are measured, for m2 and m4 depend
+    on the remaining change of the spectrum.
 
     Johnson, Biometrika 36 (1949) 149; Schreiber and Schmitz, Phys. Rev. Lett. 77 (1996) 635.
 
@@ -48,7 +48,7 @@ def non_gaussian(base: Synthetic, *, skewness: float, kurtosis: float) -> Synthe
 
 
 def johnson_sample(count: int, skewness: float, kurtosis: float) -> np.ndarray:
-    """Sorted numbers of mean 0 and rms 1 with the given skewness and kurtosis, those of a Johnson curve.
+    """Sorted numbers of mean 0 and rms 1 with the given skewness and kurtosis, from a Johnson curve.
 
     .. math:: y = \\sinh[(w - \\gamma)/\\delta] \\quad\\text{or}\\quad 1/(1 + e^{-(w - \\gamma)/\\delta})
 
@@ -103,9 +103,9 @@ def weierstrass_mandelbrot(
 
     .. math:: z(x) = G^{D-1} \\sum_n \\frac{\\cos(2\\pi\\gamma^n x + \\varphi_n)}{(\\gamma^n)^{2-D}}
 
-    with frequencies gamma^n (1/m) from 1/``longest`` up to 1/``shortest``; 1 < D < 2. The moments are those of
-    the endless trace, sums of half the squared amplitudes times the powers of frequency; a cut of it comes
-    near them when it holds many of its longest waves. Majumdar and Tien, Wear 136 (1990) 313, eq. 6.
+    with frequencies gamma^n (1/m) from 1/``longest`` up to 1/``shortest``; 1 < D < 2. The moments hold for the endless
+    trace, sums of half the squared amplitudes times the powers of frequency; a finite trace approaches them with many
+    of the longest waves. Majumdar and Tien, Wear 136 (1990) 313, eq. 6.
 
     >>> t = weierstrass_mandelbrot(dimension=1.5, roughness_length=1e-9, longest=1e-4, shortest=2e-6,
     ...                            points=40000, spacing=2.5e-7, seed=2)

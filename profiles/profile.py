@@ -1,4 +1,4 @@
-"""The profile: heights at equal spacing, and what has been done to them."""
+"""The profile: heights at equal spacing, and the steps of their processing."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def frozen(values: ArrayLike, kind: type) -> np.ndarray:
-    """The values as a read-only array: themselves where they are one that owns its numbers, else a copy.
+    """The values as a read-only array: the same object if already read-only and owner of its numbers, else a copy.
 
     >>> z = np.zeros(3)
     >>> frozen(z, float) is z, frozen(frozen(z, float), float).flags.writeable
@@ -35,16 +35,15 @@ def frozen(values: ArrayLike, kind: type) -> np.ndarray:
 class Profile:
     """A measured or synthetic trace: heights (m) at equal spacing (m); immutable.
 
-    ``valid`` is False where a point was masked (dropout, spike, scratch) and bridged; ``steps`` tells in
-    order what was done to the heights, ``cutoffs`` the filter limits (m) they passed (``cutoff``,
-    ``short_cutoff``), ``origin`` what the file said about itself. Of its keys these are acted upon, so every
-    reader that knows them uses these names:
+    ``valid`` is False where a point was masked (dropout, spike, scratch) and bridged; ``steps``: processing of the
+    heights, in order; ``cutoffs``: filter limits (m) already applied (``cutoff``, ``short_cutoff``); ``origin``:
+    statements of the file about itself. Keys of ``origin`` with an effect, in the same spelling for every reader:
 
-    ``stated``: parameters the file prints beside its heights, by ISO symbol (``Rq``, ``Pq``), lengths in m,
-    ratios in percent, the rest as printed; ``stated_short_cutoff``: the low-pass (m) they were taken after,
-    where the heights are stored before it; ``stated_filtered``: whether they are the roughness of heights that are
-    stored unfiltered; ``convention``: the convention they follow;
-    ``sampling_lengths``: how many the instrument averaged over; ``tip_radius``: of the stylus (m).
+    ``stated``: parameters the file prints beside its heights, by ISO symbol (``Rq``, ``Pq``), lengths in m, ratios in
+    percent, the rest as printed; ``stated_short_cutoff``: the low-pass (m) before the stated parameters, if the heights
+    are stored before it; ``stated_filtered``: whether roughness is stated beside unfiltered heights; ``convention``:
+    convention of the parameters; ``sampling_lengths``: number of sampling lengths in the instrument's means;
+    ``tip_radius``: of the stylus (m).
 
     >>> p = Profile(np.array([0.0, 1e-6, 0.0]), 0.5e-6, name="peak")
     >>> p.length, p.steps
@@ -101,7 +100,7 @@ class Profile:
 
 
 def of_profile(function: Function) -> Function:
-    """A function of a `Profile` that refuses anything else as its first argument: heights alone have no spacing."""
+    """Wrap a function of a `Profile` to reject any other first argument: heights alone have no spacing."""
     name = next(iter(signature(function).parameters))
     place = f"{function.__module__.partition('.')[0]}.{function.__name__}"
 

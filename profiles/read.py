@@ -1,4 +1,4 @@
-"""Any profile file in, a Profile out: the first reader that recognises the content reads it."""
+"""Reading of any profile file: the first reader that recognises the content reads it."""
 
 from __future__ import annotations
 
@@ -31,17 +31,17 @@ from profiles.readers.x3p import X3pReader
 from profiles.units import known_unit, length, metres
 
 NO_TEXTS = (".opdx", ".x3p", ".xlsx", ".zip")
-"""Endings of formats that are known by their first bytes, whatever else is in them."""
+"""Endings of formats known by their first bytes, with any other content."""
 UNTOLD = (TextReader, ZipReader, type(None))
-"""Readers that take files of many kinds, and none: files of formats that are not read come to them."""
+"""Readers of many kinds of file, and None: files of formats without a reader end with them."""
 
 
 def read(path: str | os.PathLike[str], *, unit: str | None = None, spacing: float | str | None = None) -> Profile:
     """The profile in a file, recognised by its content.
 
     ``unit`` names the unit of plain numbers, as ``"um"`` (both columns) or ``"mm, um"`` (position, height);
-    ``spacing`` the step, in metres or as ``"0.5 um"``, for one column of heights or bad positions. Formats
-    that carry their own units ignore ``unit``; a step of the file that ``spacing`` overrules is in ``origin``.
+    ``spacing``: the step, in metres or as ``"0.5 um"``, for one column of heights or bad positions. Formats that carry
+    their own units ignore ``unit``; a step of the file that ``spacing`` overrules is in ``origin``.
     """
     return read_source(
         open_source(
@@ -69,17 +69,15 @@ def read_source(source: Source) -> Profile:
 
 @cache
 def readers() -> tuple[Reader, ...]:
-    """Every reader in the order of trying: those of other packages (entry points ``mixedlub.readers``) come first.
-
-    An entry point leads to a module with a ``READER``, or to the reader itself.
-    """
+    """All readers in the order of trial; readers of other packages (entry points ``mixedlub.readers``) come first. An
+    entry point leads to a module with a ``READER``, or to the reader itself."""
     offered = [point.load() for point in entry_points(group="mixedlub.readers")]
     return (*(getattr(one, "READER", one) for one in offered), *READERS)
 
 
 @contextmanager
 def _as_named(source: Source, reader: Reader | None = None) -> Iterator[None]:
-    """An error about content that no reader claims, or any text, says first that it is not what the name promises."""
+    """Context for errors: content that contradicts the ending of the file name is reported as such first."""
     try:
         yield
     except InputError as error:
@@ -95,7 +93,7 @@ def _as_named(source: Source, reader: Reader | None = None) -> Iterator[None]:
 
 
 def open_source(path: Path, unit: tuple[str, str] | None, spacing: float | None) -> Source:
-    """The bytes of a file, of a .gz what it holds; refused when missing, a folder or larger than any trace."""
+    """Bytes of a file, unpacked from .gz; an error for a missing file, a folder, or a file larger than any trace."""
     where = str(path)
     refuse_no_file(path)
     size = path.stat().st_size

@@ -1,7 +1,7 @@
-"""Gaussian traces with known truth (spectrum, moments, self-affine), and heights bent to given Ra, Rq, Rz.
+"""Gaussian traces of exact spectrum or moments, self-affine traces, and heights bent to given Ra, Rq, Rz.
 
-Random numbers are taken raw from the PCG64 stream, whose bits numpy promises to keep, so a seed gives the
-same trace under every version.
+Random numbers are taken raw from the PCG64 stream, which numpy keeps stable, so a seed gives the same trace under every
+version.
 """
 
 from __future__ import annotations
@@ -21,11 +21,8 @@ Measure = Callable[[np.ndarray], tuple[float, float, float]]
 
 @dataclass(frozen=True, eq=False)
 class Synthetic:
-    """A trace and its truth: mean squares of height m0 (m2), slope m2 and curvature m4 (1/m2).
-
-    ``exact`` tells whether the moments are those of the continuous trace, from its Fourier coefficients, or
-    measured from the heights by differences.
-    """
+    """A trace and its exact or measured moments: mean squares of height m0 (m2), slope m2 and curvature m4 (1/m2).
+    ``exact``: moments of the continuous trace, from its Fourier coefficients; else by differences of the heights."""
 
     profile: Profile
     m0: float
@@ -56,9 +53,8 @@ def from_spectrum(spectrum: Spectrum, *, points: int, spacing: float, seed: int,
 
     .. math:: z(x) = \\sum_k \\sqrt{2 S(q_k) \\Delta q} \\cos(q_k x + \\varphi_k),\\quad m_n = \\int S q^n dq
 
-    Amplitudes are fixed and phases random, so the moments of this trace are the spectrum's own sums, exactly;
-    heights are Gaussian by the number of waves. The trace closes on itself; waves shorter than two steps are
-    left out.
+    Amplitudes are fixed and phases random, so the moments of this trace are exactly the sums of the spectrum; heights
+    are Gaussian by the number of waves. The trace closes on itself; waves shorter than two steps are left out.
 
     >>> wave = from_spectrum(lambda q: np.exp(-((q * 5e-6 - 1) ** 2)), points=4096, spacing=1e-6, seed=1)
     >>> bool(np.isclose(np.mean(wave.profile.heights**2), wave.m0, rtol=1e-12))
@@ -130,14 +126,14 @@ def scaled(trace: Synthetic, rms: float) -> Synthetic:
 def of_moments(
     m0: float, m2: float, m4: float, *, points: int, spacing: float, seed: int, name: str = "moments"
 ) -> Synthetic:
-    """Gaussian trace whose m0 (m2), m2 and m4 (1/m2) are the given ones, exactly.
+    """Gaussian trace of exactly the given m0 (m2), m2 and m4 (1/m2).
 
     The spectrum is lognormal in q: with mean mu and variance s^2 of ln q its moments are
 
     .. math:: m_n = m_0 \\exp(n \\mu + n^2 s^2/2), \\quad \\alpha = m_0 m_4/m_2^2 = e^{4 s^2}
 
-    so every alpha above 1 is reached; mu and s are then moved until the sums over the waves of the trace are
-    exact to 1e-12. The trace must hold the band: an error says when its length or spacing cannot.
+    so every alpha above 1 is reached; mu and s are then moved until the sums over the waves of the trace are exact to
+    1e-12. The trace must hold the band, else its length or spacing is an error.
 
     >>> t = of_moments(1e-14, 2.5e-3, 3.6e9, points=20000, spacing=2.5e-7, seed=1)
     >>> bool(np.allclose([t.m0, t.m2, t.m4], [1e-14, 2.5e-3, 3.6e9], rtol=1e-10))
@@ -190,9 +186,9 @@ def reshape_tails(
 
     .. math:: z = R [w + c (v^3 - 3 v) + (e - 1)\\,\\mathrm{sgn}(v) \\max(|v| - k, 0)]
 
-    w is the heights over their rms and v = w, or ``long`` over its rms, so that the bending can follow the
-    long waves and leave the fine texture on them alone. Nothing is bent at c = 0, e = 1; beyond the knee
-    k = 2.2 lie 2.8 % of a Gaussian surface.
+    w is the heights over their rms and v = w, or ``long`` over its rms, so that the bending follows the long waves and
+    leaves their fine texture unchanged. Nothing is bent at c = 0, e = 1; beyond the knee k = 2.2 lie 2.8 % of a
+    Gaussian surface.
 
     >>> reshape_tails(np.array([-1.0, 1.0]), 2.0, 0.0, 1.5)
     array([-2.,  2.])
@@ -209,7 +205,7 @@ def _standard(heights: np.ndarray) -> np.ndarray:
 
 
 def long_waves(heights: np.ndarray, spacing: float, shortest: float) -> np.ndarray:
-    """The waves of a closed trace that are longer than ``shortest`` (m), by its Fourier series.
+    """Waves of a closed trace longer than ``shortest`` (m), by its Fourier series.
 
     >>> x = np.arange(64) * 1e-6
     >>> long_waves(np.cos(2 * np.pi * x / 4e-6), 1e-6, 8e-6).round(12).any()
@@ -243,11 +239,8 @@ def fitted_tails(
     long: np.ndarray | None = None,
     knee: float = 2.2,
 ) -> tuple[float, float, float]:
-    """The rms, cubic and extremes of :func:`reshape_tails` that give the base trace Ra, Rq and Rz (m).
-
-    ``measure`` takes heights to (Ra, Rq, Rz), filter included. An error says when no gentle bending reaches
-    the three numbers.
-    """
+    """The rms, cubic and extremes of :func:`reshape_tails` that give the base trace Ra, Rq and Rz (m). ``measure``
+    takes heights to (Ra, Rq, Rz), filter included. An error if no gentle bending reaches the three numbers."""
     from scipy.optimize import least_squares
 
     target = np.log([ra, rq, rz])
@@ -269,11 +262,9 @@ def fitted_tails(
 def of_heights(
     base: Profile, *, ra: float, rq: float, rz: float, measure: Measure | None = None, sections: int = 6
 ) -> Synthetic:
-    """A trace of given Ra, Rq, Rz (m): the base trace with its tails bent, its waves kept.
-
-    Without ``measure`` the three are those of the heights as they stand, means over ``sections`` sampling
-    lengths; with it they are what it says, so that a filter can be part of the definition. Moments are
-    measured by differences.
+    """Trace of given Ra, Rq, Rz (m): the base trace with its tails bent and its waves kept. Without ``measure`` the
+    three are means of the unfiltered heights over ``sections`` sampling lengths; ``measure`` may include a filter in
+    their definition. Moments are measured by differences.
 
     >>> base = self_affine(1e-7, hurst=0.7, rolloff=9e-5, shortest=2e-6, points=9600, spacing=5e-7, seed=4)
     >>> t = of_heights(base.profile, ra=2.19e-7, rq=2.74e-7, rz=1.40e-6)

@@ -1,4 +1,4 @@
-"""Units of length at the door: names as instruments write them, turned to metres."""
+"""Units of length in input: names as instruments write them, converted to metres."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def known_unit(word: str) -> str | None:
 
 
 def number_of(text: str) -> float:
-    """The number in a text; unlike in Python a stroke between digits is none.
+    """Number in a text; unlike in Python, an underscore between digits is an error.
 
     >>> number_of(" 17.49 ")
     17.49
@@ -74,7 +74,7 @@ def metres(word: str, where: str = "unit") -> float:
 
 
 def known_length(text: str) -> float | None:
-    """The length in metres that a text names, or None for any other text: for what a header says in passing.
+    """Length in metres named by a text, or None for any other text: for incidental words of a header.
 
     >>> known_length("2 mm"), known_length("2.5"), known_length("0 um")
     (0.002, None, None)

@@ -1,4 +1,4 @@
-"""What is computed from a profile: filters, ISO parameters, moments, asperities, diagnostics."""
+"""Evaluation of profiles: filters, ISO parameters, moments, asperities, diagnostics."""
 
 from roughness.asperities import Asperities, asperities, mccool_asperities
 from roughness.cutoffs import choose_cutoffs, cutoff_for, short_cutoff_for

@@ -20,7 +20,7 @@ from roughness.moments import Moments
 SIGMA = math.sqrt(math.log(2.0) / math.pi) / math.sqrt(2.0 * math.pi)
 """Standard deviation of the Gaussian filter over its cut-off; ISO 16610-61."""
 FEWEST = 16
-"""Fewest rows and columns of a map whose moments mean anything."""
+"""Fewest rows and columns of a map for its moments to be meaningful."""
 MOST_HOLES = 0.2
 """Share of points without a height up to which a map is evaluated; differences across a hole are left out."""
 
@@ -73,9 +73,8 @@ class ArealMoments:
 def areal_moments(area: HeightMap) -> ArealMoments:
     """Moments of a levelled map by differences between neighbours; the heights are about their mean.
 
-    Differences in which a point without a height takes part are left out.
-
-    On a wave of N points the differences lose as much as those of a trace do (`roughness.moments`).
+    Differences with a missing height are left out. On a wave of N points the differences lose as much as along a trace
+    (`roughness.moments`).
 
     >>> y, x = np.mgrid[0:400, 0:400]
     >>> wave = HeightMap(1e-6 * np.cos(2 * np.pi * (x * 0.6 + y * 0.8) / 100), 1e-6, 1e-6)
@@ -108,10 +107,10 @@ def areal_moments(area: HeightMap) -> ArealMoments:
 def areal_roughness(
     area: HeightMap, *, form: str = "line", cutoff: float | None = None, short_cutoff: float | None = None
 ) -> HeightMap:
-    """The roughness of a map: form off, then waves shorter than one and longer than the other cut-off (m) off.
+    """Roughness of a map: without the form, then without waves below ``short_cutoff`` and above ``cutoff`` (m).
 
-    ``form``: none, mean, line (a plane) or polynomial-N of total degree N. Gaussian filters of ISO 16610-61; towards
-    the edges the weights of the points that are there count.
+    ``form``: none, mean, line (a plane) or polynomial-N of total degree N. Gaussian filters of ISO 16610-61; near the
+    edges the weights are normalised over the points of the map.
 
     >>> y, x = np.mgrid[0:64, 0:64]
     >>> tilted = HeightMap(1e-7 * x + 2e-7 * y + 1e-7 * ((x + y) % 2), 1e-6, 1e-6)
@@ -133,7 +132,7 @@ def areal_roughness(
 
 
 def tiles(area: HeightMap, a_side: int = 3) -> list[HeightMap]:
-    """The map cut into as many rows as columns of parts.
+    """Parts of a map, cut into ``a_side`` rows and columns.
 
     >>> [part.heights.shape for part in tiles(HeightMap(np.zeros((40, 60)), 1e-6, 1e-6), 2)]
     [(20, 30), (20, 30), (20, 30), (20, 30)]
@@ -143,15 +142,15 @@ def tiles(area: HeightMap, a_side: int = 3) -> list[HeightMap]:
 
 
 def gaussian_scatter(area: HeightMap, *angles: float) -> np.ndarray:
-    r"""Relative standard deviations of m0, m2 and m4 that maps of this size of a Gaussian surface have.
+    r"""Relative standard deviations of m0, m2 and m4 between maps of this size of a Gaussian surface.
 
     .. math:: \frac{\mathrm{sd}(m_n)^2}{m_n^2} = \frac{\sum_q k_q^{2n} P_q^2}{\left(\sum_q k_q^n P_q\right)^2}
 
-    with the periodogram P of the map under a Hann window and the wavenumber k along the angle (rad from the x axis) as
-    differences see it; m2 and m4 are means over several angles. Valid for waves up to about an eighth of the map; too
-    low for longer ones, for m0 by a sixth at half the map and by two fifths at waves as long as it. Each ordinate of
-    the periodogram is exponential, so that its square is twice that of the spectrum, which makes up for the two
-    ordinates that are one.
+    with the periodogram P of the map under a Hann window and the wavenumber k of differences along the angle (rad from
+    the x axis); m2 and m4 are means over several angles. Valid for waves up to about an eighth of the map; too low for
+    longer ones, for m0 by a sixth at half the map and by two fifths at waves as long as the map. Each ordinate of the
+    periodogram is exponential, so that the mean of its square is twice the squared spectrum, which offsets the equality
+    of the ordinates at k and -k.
     Source: M. B. Priestley, Spectral Analysis and Time Series, 1981, section 6.1.
 
     >>> white = HeightMap(1e-7 * np.random.default_rng(1).standard_normal((128, 128)), 1e-6, 1e-6)
@@ -176,7 +175,7 @@ def _mean_square(values: np.ndarray) -> float:
 
 
 def trace_across_lay(area: HeightMap) -> Profile:
-    """The longest trace through the middle of a map in the direction of its steepest slopes, across its lay.
+    """Longest trace through the middle of a map in the direction of its steepest slopes, across its lay.
 
     >>> y, x = np.mgrid[0:40, 0:60]
     >>> trace_across_lay(HeightMap(1e-7 * np.cos(x), 1e-6, 1e-6)).heights.size

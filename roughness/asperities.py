@@ -20,8 +20,8 @@ MODELS = ("McCool", "no offset", "bi-Gaussian", "summit count")
 class Asperities:
     """Summits for Greenwood-Williamson: ``density`` (1/m2), ``radius`` (m), ``sigma`` of their heights (m).
 
-    ``plane_offset`` is how far their mean plane stands above that of the surface (m); ``nayak`` the
-    bandwidth (-); ``model`` the relations that gave them.
+    ``plane_offset``: mean plane of the summits above the mean plane of the surface (m); ``nayak``: bandwidth (-);
+    ``model``: name of the relations.
     """
 
     density: float
@@ -34,11 +34,11 @@ class Asperities:
 
 @of_profile
 def asperities(profile: Profile, *, model: str = "McCool") -> Asperities:
-    """Asperities of one profile under one of ``MODELS``, so that a surface can be seen under all of them.
+    """Asperities of one profile under one of ``MODELS``.
 
-    ``McCool`` is the one to compute with. ``no offset`` gives the summits the height spread and the mean plane of
-    the surface, as is often done. ``bi-Gaussian`` takes only what stands above the knee of the
-    probability plot. ``summit count`` counts the profile's peaks. The others are there to compare.
+    ``McCool`` is for computation, the others are for comparison. ``no offset`` gives the summits the height spread and
+    the mean plane of the surface, as is often done. ``bi-Gaussian`` takes only the heights above the knee of the
+    probability plot. ``summit count`` counts the profile's peaks.
     """
     if model not in MODELS:
         raise InputError(f"must be known; {nearest(model, MODELS)}", where="asperity model", value=model)
@@ -53,8 +53,8 @@ def asperities(profile: Profile, *, model: str = "McCool") -> Asperities:
 def mccool_asperities(moments: Moments) -> Asperities:
     """McCool's asperities of an isotropic Gaussian surface; Wear 107 (1986) 37, after Nayak 1971.
 
-    Add the moments of two surfaces first. Below a bandwidth of 3/2 no such surface exists: sigma and plane
-    offset are then those of 3/2.
+    Add the moments of two surfaces first. Below a bandwidth of 3/2 no such surface exists: sigma and plane offset are
+    then taken at 3/2.
 
     >>> a = mccool_asperities(Moments(0.16e-12, 0.01, 0.004e12))
     >>> round(a.density * 1e-6, 2), round(a.radius * 1e6, 4), round(a.sigma * 1e6, 6)
@@ -84,11 +84,9 @@ def without_offset(moments: Moments) -> Asperities:
 
 
 def bi_gaussian(profile: Profile) -> Asperities:
-    """McCool's asperities of the plateau alone: its sigma from the probability plot, slope and curvature
-    from the points above the knee, its mean plane counted from that of the whole profile.
-
-    On a single Gaussian process the knee means little and the answer is close to McCool's.
-    """
+    """McCool's asperities of the plateau alone: sigma from the probability plot, slope and curvature from the points
+    above the knee, mean plane relative to the mean plane of the whole profile. On a single Gaussian process the knee
+    means little and the result is close to McCool's."""
     lines = two_lines(profile)
     z, dx = profile.heights, profile.spacing
     high = (z > lines.knee_height) & profile.valid
@@ -104,10 +102,10 @@ def bi_gaussian(profile: Profile) -> Asperities:
 def summit_count(profile: Profile) -> Asperities:
     r"""Asperities from counted three-point peaks, turned from profile peaks into summits.
 
-    On an isotropic Gaussian surface summits and profile peaks are in fixed relations (Nayak 1971):
-    :math:`D = (2\pi/3\sqrt3)\,N^2` for N peaks a length, mean curvature and mean height of summits
-    1.2004 and 1.8006 times those of peaks. Sigma is that of the peaks themselves. Peaks at the sampling
-    interval are not asperities: filter first, to eight points a short cut-off.
+    On an isotropic Gaussian surface summits and profile peaks are in fixed relations (Nayak 1971): :math:`D =
+    (2\pi/3\sqrt3)\,N^2` for N peaks a length, mean curvature and mean height of summits 1.2004 and 1.8006 times the
+    means of peaks. Sigma is the standard deviation of the peak heights. Peaks at the sampling interval are not
+    asperities: filter first, to eight points a short cut-off.
     """
     z, dx = profile.heights, profile.spacing
     middle = z[1:-1]

@@ -13,12 +13,12 @@ from roughness.noise import height_quantum
 CHANCE = 1e-5
 """Chance of so many separate summits within one height step of the highest, below which the trace is clipped."""
 FLAT = 4
-"""Points of a flat, and height steps down to its neighbours, that no rounded summit has: two such flats, or
-one twice as long and as steep, are no summits."""
+"""Points of a flat, and height steps down to its neighbours, beyond any rounded summit: two such flats, or a single
+flat twice as long and as steep, are not summits."""
 COARSE = 0.02
 """Height step over the range of the heights from which one level may hold a plateau."""
 MOST = 0.25
-"""Share of the heights in one level beyond which a coarse step, and not the end of the range, holds them."""
+"""Share of the heights in one level beyond which a coarse height step holds them, not the end of the range."""
 TWO_LEVELS = 0.9
 """Share of the heights at both ends from which the trace is a step or a square wave."""
 
@@ -45,11 +45,11 @@ class Clipping:
 
 @of_profile
 def clipping(profile: Profile) -> Clipping:
-    r"""Clipping of a trace, to be asked of the trace as read: filters bend the flats; evaluated profiles remember it.
+    r"""Clipping of a trace as read, since filters bend the flats; evaluated profiles keep the result.
 
-    Above a high level the excess of summits is exponential with a mean m, so that of n summits in the highest height
-    step q none reaches the next with :math:`(1 - e^{-q/m})^{n-1}`; rounded summits also have fewer heights in each
-    lower level. Few and long flats are told by the drops beside them.
+    Above a high level the excess of summits is exponential with a mean m, so that no summit of n in the highest height
+    step q reaches the next with probability :math:`(1 - e^{-q/m})^{n-1}`; rounded summits also have fewer heights in
+    each lower level. A few long flats are recognised by the drops beside them.
     Source: H. Cramer, M. R. Leadbetter, Stationary and Related Stochastic Processes, 1967, section 11.
 
     >>> z = np.sin(np.arange(3000) ** 1.1)
@@ -69,7 +69,7 @@ def clipping(profile: Profile) -> Clipping:
 
 
 def _share_at_top(z: np.ndarray, quantum: float, span: float) -> float:
-    """Share of the heights in the highest level where that level is the end of the range, else 0."""
+    """Share of the heights in the highest level if that level is the end of the range, else 0."""
     down = z.max() - z
     level = np.floor(down / quantum + 0.5)
     counts = [int(np.count_nonzero(level == k)) for k in range(5)]

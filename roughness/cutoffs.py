@@ -1,4 +1,4 @@
-"""Which cut-offs a profile asks for: the tables of ISO 4288, ISO 21920-3 and ISO 3274."""
+"""Cut-offs for a profile: the tables of ISO 4288, ISO 21920-3 and ISO 3274."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _SHORT = (
 
 @dataclass(frozen=True)
 class CutoffChoice:
-    """Cut-off lambda_c, short cut-off lambda_s, largest tip radius and spacing (m), and why these."""
+    """Cut-off lambda_c, short cut-off lambda_s, largest tip radius and spacing (m), and the reason."""
 
     cutoff: float
     short_cutoff: float
@@ -39,7 +39,7 @@ class CutoffChoice:
 
 
 def cutoff_for(parameter: str, value: float) -> float:
-    """Cut-off lambda_c (m) that belongs to a value of Ra, Rz or RSm (m). ISO 4288:1996, 7.
+    """Cut-off lambda_c (m) for a value of Ra, Rz or RSm (m). ISO 4288:1996, 7.
 
     >>> cutoff_for("Ra", 0.45e-6), cutoff_for("Ra", 0.036e-6), cutoff_for("RSm", 0.42e-3)
     (0.0008, 0.00025, 0.0025)
@@ -51,7 +51,7 @@ def cutoff_for(parameter: str, value: float) -> float:
 
 
 def short_cutoff_for(cutoff: float) -> CutoffChoice:
-    """Short cut-off, tip and spacing that go with a cut-off (m). ISO 3274:1996, table 1.
+    """Short cut-off, tip and spacing for a cut-off (m). ISO 3274:1996, table 1.
 
     >>> short_cutoff_for(0.8e-3).short_cutoff, short_cutoff_for(2.5e-3).short_cutoff
     (2.5e-06, 8e-06)
@@ -64,9 +64,9 @@ def short_cutoff_for(cutoff: float) -> CutoffChoice:
 def choose_cutoffs(profile: Profile) -> CutoffChoice:
     """Cut-offs of a levelled trace by the rule of ISO 4288:1996, 7.2.
 
-    From 0.8 mm, measure Ra, Rz and RSm, go to the cut-off they ask for, and stop where it comes back; where
-    two take turns, the longer. Periodic profiles (equal element widths) go by RSm, others by Ra and Rz. A
-    trace too short for the cut-off takes the longest that fits.
+    From 0.8 mm, measure Ra, Rz and RSm and take their cut-off until a cut-off repeats; of two alternating cut-offs, the
+    longer. Periodic profiles (equal element widths) go by RSm, others by Ra and Rz. A trace too short for the cut-off
+    takes the longest that fits.
     """
     fits = [row[0] for row in _SHORT if row[0] <= 0.6 * profile.length] or [_SHORT[0][0]]
     cutoff = min(0.8e-3, fits[-1])

@@ -1,4 +1,4 @@
-"""Points that are not the surface: spikes, scratches, pits and edges, masked and bridged, never deleted."""
+"""Outliers of a trace (spikes, scratches, pits) and edges of the part: masked and bridged, never deleted."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from profiles.profile import of_profile
 from roughness.robust import robust_mean_line
 
 CUT = "edges cut"
-"""How the step begins that shortens a trace."""
+"""First words of the step that shortens a trace."""
 
 
 @of_profile
@@ -21,11 +21,11 @@ def mask_outliers(
     side: str = "both",
     margin: float | None = None,
 ) -> Profile:
-    """Mask what stands further than ``sigmas`` robust sigmas off the robust mean line of a cut-off (m).
+    """Mask points further than ``sigmas`` robust sigmas off the robust mean line of a cut-off (m).
 
-    ``side`` is ``peaks`` (spikes, dirt), ``valleys`` (scratches, pits) or ``both``. ``margin`` (m) widens
-    each mask, by default to where the residual has come back within one sigma. Masked stretches are bridged
-    by straight lines; parameters and moments leave them out.
+    ``side`` is ``peaks`` (spikes, dirt), ``valleys`` (scratches, pits) or ``both``. ``margin`` (m) widens each mask, by
+    default until the residual is back within one sigma. Masked stretches are bridged by straight lines; parameters and
+    moments leave them out.
 
     >>> z = 1e-8 * np.sin(np.arange(2000) * 0.7); z[1000] = 1e-6
     >>> np.flatnonzero(~mask_outliers(Profile(z, 1e-6), margin=0.0).valid)
@@ -78,7 +78,7 @@ def mask_edges(profile: Profile, *, steepness: float = 8.0, share: float = 0.02)
 
 
 def _edge(z: np.ndarray, window: int, centre: float, limit: float) -> int:
-    """How many of the last heights are edge: those from the first steep window after which none is level again."""
+    """Number of edge heights at the end: from the first steep window after which none is level again."""
     rise = z[window:] - z[:-window]
     fifth = rise.size // 5
     steep = np.abs(rise[-fifth:] - centre) > limit
@@ -104,7 +104,7 @@ def _edge(z: np.ndarray, window: int, centre: float, limit: float) -> int:
 
 
 def masked(profile: Profile, away: np.ndarray, step: str) -> Profile:
-    """The profile with more points masked, and straight bridges over all that is masked."""
+    """Profile with more points masked, and straight bridges over all masked points."""
     valid = profile.valid & ~away
     count = int(np.count_nonzero(valid))
     if count < max(3, 0.2 * valid.size):
@@ -123,7 +123,7 @@ def masked(profile: Profile, away: np.ndarray, step: str) -> Profile:
 
 @of_profile
 def without_edges(profile: Profile) -> Profile:
-    """The longest stretch without masked ends: what is left between the edges of a part."""
+    """Longest stretch without masked ends, between the edges of a part."""
     kept = np.flatnonzero(profile.valid)
     first, last = int(kept[0]), int(kept[-1]) + 1
     if first == 0 and last == profile.heights.size:

@@ -31,12 +31,12 @@ class ElementParameters:
 def element_parameters(
     profile: Profile, *, discrimination: str = "10 % of Rz", sections: int | None = None
 ) -> ElementParameters:
-    """RSm and Rc of the elements whose peak and valley both pass the height discrimination.
+    """RSm and Rc of the elements with both peak and valley beyond the height discrimination.
 
-    A stretch above (below) the zero line counts where it rises (falls) by the discrimination; what does not
-    count joins its neighbour. An element runs from one rise through the zero line to the next.
-    ISO 4287:1997, 3.2.7, 4.3.1 and 4.1.4, which takes 10 % of Rz; instruments also use 10 % of Rt, and NIST
-    reads the 10 % as 5 % to either side. None has a least width here.
+    A stretch above (below) the zero line counts if it rises (falls) by the discrimination; other stretches join their
+    neighbour. An element runs from one rise through the zero line to the next. ISO 4287:1997, 3.2.7, 4.3.1 and 4.1.4,
+    which takes 10 % of Rz; instruments also use 10 % of Rt, and NIST reads the 10 % as 5 % to either side. No least
+    width is required.
 
     >>> wave = Profile(1e-6 * np.sin(2 * np.pi * (np.arange(1000) + 0.5) / 100), 1e-6)
     >>> e = element_parameters(wave)

@@ -21,7 +21,7 @@ ENDS = ("regression", "normalised", "reflect", "periodic")
 
 
 def gaussian_transmission(wavelength: np.ndarray | float, cutoff: float) -> np.ndarray | float:
-    """Share of a wave's amplitude that the mean line follows.
+    """Share of a wave's amplitude in the mean line.
 
     .. math:: A_1/A_0 = \\exp[-\\pi (\\alpha \\lambda_c/\\lambda)^2] = 2^{-(\\lambda_c/\\lambda)^2}
 
@@ -38,10 +38,10 @@ def gaussian_kernel(cutoff: float, spacing: float, *, floored: bool = False) -> 
 
     .. math:: s(x) = \\exp[-\\pi (x/\\alpha\\lambda_c)^2] / (\\alpha\\lambda_c)
 
-    ``floored`` first lowers the cut-off to a whole number of samples, as the NIST surface metrology service
-    does. What lies beyond the cut is 3e-7 of the whole. ISO 16610-21, eq. 1. Of fewer than five points a cut-off
-    samples of the Gaussian would transmit too much, 0.89 at two: there the weights are those whose transmission
-    is eq. 4 itself at equal steps of the wavenumber, and the ripple between them is at most 0.007.
+    ``floored`` first lowers the cut-off to a whole number of samples, as the NIST surface metrology service does. The
+    weights beyond the cut are 3e-7 of the whole. ISO 16610-21, eq. 1. With fewer than five points a cut-off, samples of
+    the Gaussian would transmit too much (0.89 at two points): there the weights transmit eq. 4 exactly at equal steps
+    of the wavenumber, with a ripple of at most 0.007 between them.
 
     >>> kernel = gaussian_kernel(0.8e-6, 0.25e-6, floored=True)
     >>> kernel.size, round(float(kernel.sum()), 12)
@@ -148,7 +148,7 @@ def local_regression(heights: np.ndarray, weights: np.ndarray, kernel: np.ndarra
 
 @lru_cache(maxsize=16)
 def _spectrum(kernel: bytes, size: int) -> np.ndarray:
-    """Transform of a kernel; kept, as a batch of traces passes the same few filters."""
+    """Transform of a kernel; cached, as a batch of traces passes the same few filters."""
     from scipy.fft import rfft
 
     found: np.ndarray = rfft(np.frombuffer(kernel), size)
@@ -157,10 +157,10 @@ def _spectrum(kernel: bytes, size: int) -> np.ndarray:
 
 
 def convolve(values: np.ndarray, kernel: np.ndarray) -> np.ndarray:
-    """Convolution as long as the values, zeros beyond them; odd kernel.
+    """Convolution of the same length as the values, with zeros beyond them; odd kernel.
 
-    Short kernels are summed directly; long ones go through transforms of blocks that stay in cache, a few at a
-    time because that halves their cost; memory is that of the values, the answer and a few blocks.
+    Short kernels are summed directly; long ones go through transforms of blocks that stay in cache, a few at a time
+    because that halves their cost. Memory: the values, the result and a few blocks.
     """
     half = kernel.size // 2
     if kernel.size <= 25 or values.size <= 64:

@@ -43,8 +43,8 @@ def involute(profile: Profile, base_radius: float) -> tuple[np.ndarray, float]:
     .. math:: x = r_b(\\theta_0\\sin u + u\\sin u + \\cos u - 1), \\quad
               y = r_b(\\theta_0(1 - \\cos u) + \\sin u - u\\cos u)
 
-    with the radius of curvature r_b times roll angle. Convex or concave, run from root to tip or back: of
-    both directions the better one is kept.
+    with the radius of curvature r_b times roll angle. Convex or concave, run from root to tip or back: the direction
+    with the better fit is kept.
 
     >>> u = np.linspace(-0.05, 0.05, 20001)
     >>> x = 0.033 * (0.4 * np.sin(u) + u * np.sin(u) + np.cos(u) - 1)

@@ -1,4 +1,4 @@
-"""Warnings a profile earns: each says what is wrong, by how much, and what it does to the numbers."""
+"""Warnings about a profile: the fault, its size and its effect on the numbers."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def profile_warnings(
     *,
     raw: Profile | None = None,
 ) -> list[str]:
-    """All warnings of an evaluated profile; ``raw`` is the trace as read, where it is at hand."""
+    """All warnings of an evaluated profile; ``raw`` is the trace as read, if available."""
     as_read = profile if raw is None else raw
     return [*trace_warnings(profile, found, raw=as_read), *height_warnings(profile, heights, found, gaussian)]
 
@@ -38,7 +38,7 @@ def profile_warnings(
 def height_warnings(
     profile: Profile, heights: HeightParameters, found: Moments, gaussian: NormalProbability | None
 ) -> list[str]:
-    """What is doubtful about the numbers that an evaluated profile gives, and about its heights being Gaussian."""
+    """Warnings about the parameters of an evaluated profile and about the shape of its height distribution."""
     return [
         *_band(profile, found),
         *_lengths(profile, heights),
@@ -49,7 +49,7 @@ def height_warnings(
 
 
 def trace_warnings(profile: Profile, found: Moments, *, raw: Profile) -> list[str]:
-    """What is doubtful about a trace as read and what was cut off it, whatever is then computed from it."""
+    """Warnings about a trace as read and the parts cut off it, for any parameters."""
     return [
         *_inferred(raw),
         *overruled(raw),
@@ -154,7 +154,7 @@ def _instrument(profile: Profile, found: Moments, raw: Profile) -> Iterator[str]
 
 
 def _spikes(profile: Profile) -> Iterator[str]:
-    """Places whose curvature no Gaussian surface has, where one of them alone has a say in m4."""
+    """Places with more curvature than any Gaussian surface, if a single place dominates m4."""
     bend = np.diff(profile.heights, 2)
     bend[~(profile.valid[2:] & profile.valid[1:-1] & profile.valid[:-2])] = 0.0
     low, high = np.quantile(bend, (0.1, 0.9))
@@ -187,7 +187,7 @@ def _inferred(raw: Profile) -> Iterator[str]:
 
 
 def overruled(raw: Profile) -> Iterator[str]:
-    """The units and the step in the file where the caller named others."""
+    """Units and step of the file that the caller overruled."""
     for what in ("units", "spacing"):
         if f"{what}_overruled" in raw.origin:
             yield f"{what}: {raw.origin[f'{what}_overruled']}"
@@ -203,17 +203,15 @@ def _clipped(raw: Profile) -> Iterator[str]:
 
 
 def _cut(profile: Profile) -> Iterator[str]:
-    """How much of the trace was taken for what lies beyond the edges of the part."""
+    """Length of the trace cut off as beyond the edges of the part."""
     for step in profile.steps:
         if step.startswith(CUT):
             yield f"{step}: the trace leaves the level of the surface there and does not come back"
 
 
 def _stated(profile: Profile, raw: Profile) -> Iterator[str]:
-    """Parameters that the file prints against those of its heights, by the file's rules and before any other filter.
-
-    Roughness printed beside an unfiltered trace is compared with the evaluated profile.
-    """
+    """Parameters printed in the file against parameters of its heights, by the file's rules and before any other
+    filter. Roughness printed beside an unfiltered trace is compared with the evaluated profile."""
     stated = raw.origin.get("stated")
     if not isinstance(stated, Mapping):
         return
@@ -239,7 +237,7 @@ def _stated(profile: Profile, raw: Profile) -> Iterator[str]:
 
 
 def shape_warnings(gaussian: NormalProbability | None) -> Iterator[str]:
-    """What is doubtful about the heights being Gaussian."""
+    """Warnings about heights that are not Gaussian."""
     if gaussian is None:
         yield "too few differing heights for a probability plot"
         return

@@ -18,7 +18,7 @@ from roughness.probability import Plateau
 STEP, REACH = 0.01, 12.0
 """Spacing and end of the grid of heights, in rms of the pair; a spacing of 0.01 moves F_n by less than 2e-4."""
 LEAST_GAP, LARGEST_GAP = -4.0, 10.0
-"""Gaps between which the integrals are tabulated: that of no film is above -3 on any surface (Nayak's 1.5)."""
+"""Gaps between which the integrals are tabulated: the gap at zero film is above -3 on any surface (Nayak's 1.5)."""
 _TINY = 1e-300
 _NODES = np.linspace(-9.0, 9.0, 7201)
 

@@ -16,11 +16,11 @@ import numpy as np
 from roughness.single_asperity import Asperity
 
 AREA, LOAD = 0, 1
-"""Place of the sums of area and of load."""
+"""Indices of the sums of area and of load."""
 FIRST, LAST, PER_UNIT = -4.0, 12.0, 32
 """Range of the table in t, and its nodes a unit: cubic pieces between them are within 1e-7 of the sums."""
 MOST_ONSETS, PER_UNIT_OF_LOG = 256, 64
-"""Different onsets in one call up to which each has a table; nodes a unit of their logarithm, where there are more."""
+"""Different onsets in one call up to which each has a table; nodes a unit of their logarithm for more onsets."""
 _NEGLECTED = 80.0
 """Twice the exponent by which the density has fallen where the integrals end."""
 
@@ -75,10 +75,9 @@ def _pieces(edges: tuple[float, ...], end: float) -> list[tuple[float, float]]:
 
 
 def height_sum(asperity: Asperity, which: int, separation: np.ndarray, onset: np.ndarray) -> np.ndarray:
-    """One of the sums, fast: within 1e-7 relative of `integrated`; 0 beyond a gap of 12 sigma, where it is below 1e-33.
+    """Sum of area or load, fast: within 1e-7 relative of `integrated`; 0 beyond a gap of 12 sigma (sum below 1e-33).
 
-    Onsets that most gaps share have a table each; many different ones are interpolated between those of a grid, within
-    1e-6.
+    A few different onsets have a table each; many are interpolated between the onsets of a grid, within 1e-6.
 
     >>> from roughness.single_asperity import zhao_maietta_chang
     >>> gap, onset = np.array([0.0, 1.0, 3.0]), np.array(0.02)

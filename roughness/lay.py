@@ -15,7 +15,7 @@ FALL = 0.5
 
 
 def mean_moments(found: Sequence[Moments]) -> Moments:
-    """The mean of the moments of several traces; spacing and cut-offs are kept where all have the same.
+    """Mean of the moments of several traces, with their spacing and cut-offs if equal.
 
     >>> mean_moments([Moments(1e-14, 1e-3, 1e9, cutoff=8e-4), Moments(3e-14, 3e-3, 2e9, cutoff=8e-4)]).m4
     1500000000.0
@@ -33,8 +33,8 @@ def mean_moments(found: Sequence[Moments]) -> Moments:
 def peklenik_number(across: Sequence[Profile], along: Sequence[Profile]) -> float:
     """Correlation length across the lay over that along it, each where the autocorrelation falls to a half (-).
 
-    Means over the traces. Below 1, as across the lay surfaces forget sooner; 1 without a lay. A length along the lay
-    beyond the cut-off of the filter is that of the filter.
+    Means over the traces. Below 1, as the correlation falls sooner across the lay; 1 without a lay. The filter limits
+    lengths along the lay to its cut-off.
     Source: N. Patir, H. S. Cheng, J. Lubr. Technol. 100 (1978) 12, after J. Peklenik, Proc. IMechE 182 (1967-68) 108.
 
     >>> ridge = Profile(np.cos(np.arange(4000) / 20.0), 1e-6)
@@ -52,9 +52,9 @@ def mean_axes(samples: np.ndarray, level: float = 0.9, least: np.ndarray | float
 
     ``samples`` has a row for each of n traces (or sampling lengths) and a column for each moment. The covariance of the
     means over their products, :math:`C = \mathrm{cov}(x/\bar x)/n`, is written as :math:`\sum_j v_j v_j^T`; rows are
-    :math:`t\,v_j` with Student's t of n - 1 degrees of freedom. A quantity that is linear in the logarithms deviates by
-    the root of the squares of its changes along the rows, which is the t interval of its own n values. ``least`` are
-    relative standard deviations that the means have at least, one a column.
+    :math:`t\,v_j` with Student's t of n - 1 degrees of freedom. For a quantity linear in the logarithms, the root of
+    the summed squares of its changes along the rows is the t interval of its n values. ``least``: lower bounds on the
+    relative standard deviations of the means, one a column.
 
     >>> rows = mean_axes(np.array([[0.9, 1.0], [1.0, 1.0], [1.1, 1.0]]))
     >>> np.sqrt((rows**2).sum(axis=0)).round(4).tolist()   # t = 2.92 times 0.1 / sqrt(3)

@@ -1,4 +1,4 @@
-"""The material ratio (Abbott) curve and what ISO 13565-2 reads off it."""
+"""The material ratio (Abbott) curve and its parameters of ISO 13565-2."""
 
 from __future__ import annotations
 
@@ -121,7 +121,7 @@ def _flattest_line(ratio: np.ndarray, heights: np.ndarray) -> tuple[float, float
 
 
 def _flattest_secant(ratio: np.ndarray, heights: np.ndarray) -> tuple[float, float, float]:
-    """The same by the secant that falls least over 40 %, both its ends read between levels."""
+    """The same by the secant with the least fall over 40 %, both its ends read between levels."""
     starts = ratio[ratio <= 60.0]
     tops = heights[: starts.size]
     falls = tops - np.interp(starts + 40.0, ratio, heights)

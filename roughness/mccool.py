@@ -1,8 +1,8 @@
 r"""Summits of an isotropic Gaussian surface from the spectral moments of one of its profiles.
 
-Moments are those of angular frequency: m0 = <z^2> (m^2), m2 = <z'^2> (-), m4 = <z''^2> (1/m^2).
-Relations of P. R. Nayak, J. Lubr. Technol. 93 (1971) 398, as arranged for contact work by J. I. McCool,
-Wear 107 (1986) 37. Two independent surfaces combine by adding moments first. Arguments broadcast.
+Moments are of angular frequency: m0 = <z^2> (m^2), m2 = <z'^2> (-), m4 = <z''^2> (1/m^2). Relations of P. R. Nayak, J.
+Lubr. Technol. 93 (1971) 398, as arranged for contact work by J. I. McCool, Wear 107 (1986) 37. Two independent surfaces
+combine by adding moments first. Arguments broadcast.
 """
 
 from __future__ import annotations

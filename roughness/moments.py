@@ -1,4 +1,4 @@
-"""Spectral moments m0, m2, m4 of a profile, never without the band and the spacing they belong to."""
+"""Spectral moments m0, m2, m4 of a profile, always with their band and spacing."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ ESTIMATORS = ("differences", "spectral")
 class Moments:
     """Mean squares of height m0 (m2), slope m2 (-) and curvature m4 (1/m2) along a profile.
 
-    ``spacing`` and the cut-offs (m) say what m2 and m4 mean; None is unknown, or different in two surfaces
-    that were added. Angular frequency: no factor of 2 pi.
+    m2 and m4 depend on ``spacing`` and the cut-offs (m); None: unknown, or different in two added surfaces. Angular
+    frequency: no factor of 2 pi.
 
     >>> both = Moments(1e-14, 1e-3, 1e9, cutoff=8e-4) + Moments(2e-14, 1e-3, 2e9, cutoff=8e-4)
     >>> round(both.m0 * 1e14, 9), both.m2, both.m4, both.cutoff
@@ -60,11 +60,11 @@ class Moments:
 
 
 def across_and_along(across: Moments, along: Moments, *, rule: str = "geometric") -> Moments:
-    """Moments of the isotropic surface that stands for one with a lay, from traces across and along it.
+    """Moments of the isotropic surface equivalent to a surface with a lay, from traces across and along it.
 
-    m2 and m4 by ``rule``: ``geometric`` (the usual reading of Sayles and Thomas 1976), ``harmonic``,
-    ``arithmetic``, or ``across`` alone, which is what a single trace gives and a bound: it overrates slope
-    and curvature. m0 belongs to the surface, so its two estimates are averaged.
+    m2 and m4 by ``rule``: ``geometric`` (the usual reading of Sayles and Thomas 1976), ``harmonic``, ``arithmetic``, or
+    ``across`` alone, as from a single trace: an upper bound of slope and curvature. m0 belongs to the surface, so its
+    two estimates are averaged.
 
     >>> both = across_and_along(Moments(1e-14, 4e-3, 1e10), Moments(1e-14, 1e-3, 1e8))
     >>> round(both.m2, 6), round(both.m4)

@@ -1,4 +1,4 @@
-"""What the instrument adds to the moments and what its tip cannot see."""
+"""Noise and height steps of the instrument in the moments, and the limits of its tip."""
 
 from __future__ import annotations
 
@@ -14,9 +14,8 @@ from roughness.moments import Moments
 
 @of_profile
 def height_quantum(profile: Profile) -> float | None:
-    """Step between the height levels of a digitised trace (m); None where the heights take no levels.
-
-    Ask the trace as it was read: any filter blurs the levels.
+    """Step between the height levels of a digitised trace (m); None for heights without levels. Use the trace as read:
+    any filter blurs the levels.
 
     >>> height_quantum(Profile(np.round(np.sin(np.arange(500.0)) * 20) * 0.076e-6, 1e-6))
     7.6e-08
@@ -31,12 +30,12 @@ def height_quantum(profile: Profile) -> float | None:
 
 
 def noise_moments(sigma: float, spacing: float, short_cutoff: float | None = None) -> tuple[float, float, float]:
-    r"""What white noise adds to m0, m2 and m4 by differences, before or after the short cut-off.
+    r"""Contribution of white noise to m0, m2 and m4 by differences, before or after the short cut-off.
 
     .. math:: \sigma^2,\quad 2\sigma^2/\Delta^2,\quad 6\sigma^2/\Delta^4
 
-    times the square of what the Gaussian low-pass leaves of each. A quantum q has sigma = q/sqrt(12).
-    Lengths in m. Exact for noise without correlation.
+    times the share of each that passes the Gaussian low-pass. A quantum q has sigma = q/sqrt(12). Lengths in m. Exact
+    for noise without correlation.
 
     >>> noise_moments(2.0, 0.5)
     (4.0, 32.0, 384.0)
@@ -49,7 +48,7 @@ def noise_moments(sigma: float, spacing: float, short_cutoff: float | None = Non
 
 
 def without_noise(moments: Moments, sigma: float) -> Moments:
-    """The moments less what white noise of a known sigma (m) put into them.
+    """Moments less the contribution of white noise of a known sigma (m).
 
     >>> bare = Moments(1e-14, 1e-3, 1e9, spacing=1e-6, estimator="differences")
     >>> round(without_noise(bare, 5e-9).m4 / 1e9, 4)
@@ -70,7 +69,7 @@ def without_noise(moments: Moments, sigma: float) -> Moments:
 
 @of_profile
 def tip_traced(profile: Profile, radius: float) -> Profile:
-    """The trace that a round tip of a radius (m) would draw: its lowest point where it rests on the surface.
+    """Trace drawn by a round tip of a radius (m): the height of its lowest point while resting on the surface.
 
     Grey dilation by the arc of the tip; valleys narrower than the tip are filled.
 
@@ -87,7 +86,7 @@ def tip_traced(profile: Profile, radius: float) -> Profile:
 
 @of_profile
 def tip_reconstructed(profile: Profile, radius: float) -> Profile:
-    """The highest surface that could have given this trace under a round tip of a radius (m).
+    """Highest surface that gives this trace under a round tip of a radius (m).
 
     Grey erosion by the arc; equal to the surface wherever the tip touched it.
     """

@@ -11,15 +11,15 @@ from profiles.errors import nearest
 from profiles.profile import of_profile
 
 FEWEST = 8
-"""Points that a sampling length needs: the slope formula alone takes seven."""
+"""Fewest points of a sampling length: the slope formula alone takes seven."""
 
 
 @dataclass(frozen=True)
 class Convention:
     """Which parameters are means over sampling lengths; the rest are taken over the whole profile.
 
-    No convention moves the zero line: the filter or the form removal has put it there. ``discrimination`` is
-    the height that an element of RSm and Rc must have, ``core`` the way to the line of the Rk family.
+    The zero line is set by the filter or the form removal. ``discrimination``: least height of an element of RSm and
+    Rc; ``core``: method for the line of the Rk family.
     """
 
     name: str
@@ -81,12 +81,12 @@ def height_parameters(
 ) -> HeightParameters:
     """Ra Rq Rz Rt Rp Rv Rz1max Rsk Rku Rdq about the zero line; masked points are left out.
 
-    Without ``sections`` they are as many sampling lengths of exactly the cut-off as fit, in the middle of the
-    profile, and what is left at its ends does not count (ISO 4287, 3.1.9 and 3.1.10); a profile shorter than the
-    cut-off, or without one, is one section. With ``sections`` the whole profile is split equally.
+    Without ``sections``: as many sampling lengths of exactly the cut-off as fit, in the middle of the profile, without
+    the rest at its ends (ISO 4287, 3.1.9 and 3.1.10); a profile shorter than the cut-off, or without one, is one
+    section. With ``sections`` the whole profile is split equally.
 
-    Rdq uses the seven-point slope. A flat profile has no Rsk and Rku (nan). A mean of section Rq is at most the
-    rms of the whole, sqrt(m0), and less where the sections differ: it describes the finish, m0 the contact.
+    Rdq uses the seven-point slope. A flat profile has no Rsk and Rku (nan). A mean of section Rq is at most the rms of
+    the whole, sqrt(m0), and less where the sections differ: it describes the finish, m0 the contact.
 
     >>> wave = Profile(np.sqrt(2) * np.sin(2 * np.pi * np.arange(8000) / 400), 1.0)
     >>> p = height_parameters(wave, sections=4)
@@ -134,7 +134,7 @@ def height_parameters(
 
 
 def _too_short(profile: Profile, sections: int | None) -> InputError:
-    """Why there are no sections: too many were asked for, or the cut-off is too short for the spacing."""
+    """Error for too many sections, or for a cut-off too short for the spacing."""
     cutoff, where = profile.cutoffs.get("cutoff"), f"profile {profile.name!r}"
     needs = f"each sampling length needs at least {FEWEST} points"
     if sections is not None or cutoff is None:
@@ -189,13 +189,13 @@ def slopes(heights: np.ndarray, spacing: float) -> np.ndarray:
 
 
 def _borders(size: int, count: int) -> np.ndarray:
-    """First points of sections as equal as they can be, the longer ones first."""
+    """First points of sections of nearly equal size, the longer ones first."""
     short, longer = divmod(size, count)
     return np.arange(count) * short + np.minimum(np.arange(count), longer)
 
 
 def _kept(values: np.ndarray, mask: np.ndarray, borders: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The valid values and where among them each section with any starts."""
+    """Valid values, and the index of the first of each section that has any."""
     borders = np.maximum(borders, 0)
     if mask.all():
         return values, borders

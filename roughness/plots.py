@@ -30,10 +30,7 @@ def trace_figure(
     convention: str = "ISO 4287:1997",
     sections: int | None = None,
 ) -> Figure:
-    """Heights along each profile, all to ``one_scale`` or each to its own.
-
-    ``excerpt`` shows only that length (m) of the middle.
-    """
+    """Heights along each profile, on ``one_scale`` or a scale each; ``excerpt``: length (m) shown of the middle."""
 
     def draw(axes: Axes, profile: Profile) -> None:
         x, z = profile.positions, profile.heights
@@ -100,7 +97,7 @@ def probability_figure(*profiles: Profile, results: Sequence[NormalProbability] 
 
 
 def _judged(name: str, r: NormalProbability) -> str:
-    """What a panel is headed by: verdict, on how many heights it rests, and what contradicts it."""
+    """Title of a panel: verdict, number of independent heights, and any contradiction by the contact ratio."""
     lines = [
         f"{name}: {r.verdict.replace('_', ' ')}",
         f"{r.independent_heights:.0f} independent heights, sigma {r.sigma * 1e6:.3g} µm",
@@ -114,7 +111,7 @@ def _judged(name: str, r: NormalProbability) -> str:
 def abbott_figure(*profiles: Profile, convention: str = "ISO 4287:1997", sections: int | None = None) -> Figure:
     """Material ratio curve of each profile with the core line and Rk, Rpk, Rvk of ISO 13565-2.
 
-    ``convention`` says how the line is laid through the core, and with ``sections`` which length the curve is of.
+    ``convention`` sets the method of the core line and, with ``sections``, the evaluated length.
     """
     method = named_convention(convention).core
 

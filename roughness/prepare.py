@@ -1,4 +1,4 @@
-"""From a trace to the profile that is evaluated: form removal, filters, trimming; every step recorded."""
+"""Preparation of a trace for evaluation: form removal, filters, trimming; every step recorded."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ from roughness.robust import robust_mean_line, spline_mean_line
 
 METHODS = ("gaussian", "robust", "spline")
 HIGHEST = 20
-"""Degree of the polynomial that is taken off, at most."""
+"""Highest degree of a polynomial form."""
 FORMS = ("none", "mean", "line", "polynomial-N", "circle", "involute-RADIUS")
 
 
 @of_profile
 def level(profile: Profile) -> Profile:
-    """Take off the least-squares straight line."""
+    """Remove the least-squares straight line."""
     return remove_form(profile, "line")
 
 
 @of_profile
 def remove_form(profile: Profile, form: str) -> Profile:
-    """Take off the least-squares form; masked points do not pull the fit.
+    """Remove the least-squares form; masked points have no weight.
 
     ``none``, ``mean``, ``line``, ``polynomial-2`` (any degree to 20), ``circle`` (by orthogonal distance) or
-    ``involute-33.245``, a tooth flank of that base radius in mm. Crowning and tip relief on top of these
-    take a polynomial of degree 4 or more.
+    ``involute-33.245``, a tooth flank of that base radius in mm. Crowning and tip relief on top of these take a
+    polynomial of degree 4 or more.
 
     >>> p = Profile(np.array([1.0, 2.0, 3.0, 4.5, 5.0]) * 1e-6, 1e-6)
     >>> remove_form(p, "line").steps
@@ -117,9 +117,9 @@ def roughness_profile(
 def primary_profile(
     profile: Profile, short_cutoff: float, *, ends: str = "regression", floored: bool = False
 ) -> Profile:
-    """The trace without what is shorter than lambda_s (m). ISO 3274, ISO 16610-21.
+    """Primary profile: the trace without waves shorter than lambda_s (m). ISO 3274, ISO 16610-21.
 
-    Two Gaussian low-passes in a row act as one whose cut-off squared is the sum of theirs, and so it is recorded.
+    Two Gaussian low-passes in a row act as one; the squares of their cut-offs add, and the sum's root is recorded.
     """
     return profile.after(
         f"Gaussian low-pass, short cut-off {short_cutoff * 1e6:.6g} um, ends {ends}",
@@ -133,7 +133,7 @@ def primary_profile(
 
 @of_profile
 def waviness_profile(profile: Profile, cutoff: float, *, ends: str = "regression", floored: bool = False) -> Profile:
-    """What is longer than the cut-off (m): the mean line that the roughness profile leaves behind."""
+    """Waviness profile: waves longer than the cut-off (m), the mean line of the roughness profile."""
     return profile.after(
         f"Gaussian low-pass, cut-off {cutoff * 1e3:.6g} mm, ends {ends}",
         _mean_line(profile, cutoff, ends, floored),
@@ -168,9 +168,8 @@ def _mean_line(profile: Profile, cutoff: float, ends: str, floored: bool) -> np.
 
 
 def smooth_bridges(heights: np.ndarray, valid: np.ndarray) -> np.ndarray:
-    """The heights with cubic bridges over what is not valid, which meet level and slope on either side.
-
-    A filter leaves steps at the ends of a straight bridge, and a spectrum would see them.
+    """Heights with cubic bridges over invalid points, of equal level and slope at both ends. A filter leaves steps at
+    the ends of a straight bridge, which would show in a spectrum.
 
     >>> z = smooth_bridges(np.array([0.0, 1.0, 9.0, 9.0, 4.0, 5.0]), np.array([True, True, False, False, True, True]))
     >>> np.round(z, 12)
@@ -196,7 +195,7 @@ def smooth_bridges(heights: np.ndarray, valid: np.ndarray) -> np.ndarray:
 
 
 def _base_radius(form: str) -> float:
-    """Base radius (m) out of ``involute-33.245``, in mm as on the gear's data sheet."""
+    """Base radius (m) from ``involute-33.245``, in mm as on the gear's data sheet."""
     try:
         radius = float(form.removeprefix("involute-"))
     except ValueError:

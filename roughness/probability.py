@@ -1,4 +1,4 @@
-"""Normal probability plot of the heights: where they are Gaussian, and what they are where they are not."""
+"""Normal probability plot of the heights: the range in which they are Gaussian, and their shape elsewhere."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from roughness.integrals import area_integral
 from roughness.spectrum import autocorrelation
 
 TOLERANCE = 0.1
-"""Deviation from the line, in its own sigma, that Greenwood-Williamson may be asked to overlook."""
+"""Deviation from the line, over the line's sigma, that is negligible for Greenwood-Williamson."""
 
 BULK = 80.0
-"""Percentage of the heights, those from 20 to 80 % among them, on the straight part that is called the bulk."""
+"""Least percentage of the heights, 20 to 80 % included, on the straight part called the bulk."""
 
 _CONTACT = 2.0  # times more or less contact than that of Gaussian heights, from which it is said
 _REACH = 3.0902323061678132  # normal quantile of 99.9 %
@@ -41,14 +41,14 @@ class Plateau:
 
 @dataclass(frozen=True, eq=False)
 class NormalProbability:
-    """The plot and what it says; percentages are cumulative from the deepest valley up.
+    """The plot and its verdict; percentages are cumulative from the deepest valley up.
 
-    ``heights`` (m) at normal ``quantiles``; the straight line ``mean + sigma q`` is fitted between
-    ``from_percent`` and ``to_percent``, the widest range that it describes; ``band`` (m) is how far from it
-    a Gaussian profile with the same autocorrelation stays at every point together in 99 of 100 cases;
-    ``p_value`` is the share of such profiles that leave their line further than this one.
-    ``lines`` are the two asymptotes fitted to any profile, ``plateau`` the same where they are convincing;
-    ``contact_ratio`` is the mean overlap with a plane at 1, 2 and 3 sigma over that of Gaussian heights.
+    ``heights`` (m) at normal ``quantiles``; the straight line ``mean + sigma q`` is fitted between ``from_percent`` and
+    ``to_percent``, the widest range that it describes; ``band`` (m) is the deviation from the line within which a
+    Gaussian profile with the same autocorrelation stays at all points in 99 of 100 cases; ``p_value`` is the share of
+    such profiles with a larger deviation. ``lines`` are the two asymptotes fitted to any profile, ``plateau`` the same
+    if they are convincing; ``contact_ratio`` is the mean overlap with a plane at 1, 2 and 3 sigma relative to Gaussian
+    heights.
     """
 
     quantiles: np.ndarray
@@ -83,13 +83,13 @@ class NormalProbability:
 def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> NormalProbability:
     """Judge whether the heights of a filtered profile are Gaussian, and between which percentages.
 
-    ``gaussian``: the line holds from end to end of what the profile can show (at most 0.1 to 99.9 %) and
-    leaves no more than chance or the tolerance does, and no height lies beyond :func:`extreme_limit`;
-    ``gaussian_bulk``: over at least 80 % of the heights; ``plateau``: two lines, the lower one steeper, describe it;
-    ``not_gaussian``: none of these. The line holds where the heights stay within ``tolerance`` sigma of it
-    or within the band, whichever is wider; with fewer than 30 independent heights the band is not used,
-    for it would forgive any shape. Valleys below 5 % do not make a plateau of a bulk that is straight. A trace that
-    is clipped at the end of the range is ``not_gaussian``: the heights beyond are unknown.
+    ``gaussian``: the line holds over the whole range of the plot (at most 0.1 to 99.9 %) with deviations within chance
+    or the tolerance, and no height lies beyond :func:`extreme_limit`; ``gaussian_bulk``: over at least 80 % of the
+    heights; ``plateau``: two lines, the lower one steeper, describe it; ``not_gaussian``: none of these. The line holds
+    where the heights stay within ``tolerance`` sigma of it or within the band, whichever is wider; with fewer than 30
+    independent heights the band is not used, for it would forgive any shape. Valleys below 5 % do not make a plateau of
+    a bulk that is straight. A trace that is clipped at the end of the range is ``not_gaussian``: the heights beyond are
+    unknown.
     """
     from scipy.special import ndtr
 
@@ -191,10 +191,10 @@ def _line_weights(quantiles: np.ndarray) -> np.ndarray:
 def _gaussian_band(
     quantiles: np.ndarray, heights: np.ndarray, sums: np.ndarray, count: int
 ) -> tuple[float, np.ndarray]:
-    """p-value of the largest deviation from the bulk's line, and the 99 % band in sigma of the line.
+    """p-value of the largest deviation from the line of the bulk, and the 99 % band over the sigma of the line.
 
-    The covariance of the empirical quantiles of a correlated Gaussian process is expanded in Hermite
-    polynomials (Mehler); the part without correlation is exact, the rest converges with the lag-1 power.
+    The covariance of the empirical quantiles of a correlated Gaussian process is expanded in Hermite polynomials
+    (Mehler); the part without correlation is exact, the rest converges with the lag-1 power.
     """
     from scipy.special import ndtr
 
@@ -245,19 +245,15 @@ def _widest_line(
 
 
 def two_lines(profile: Profile) -> Plateau:
-    """Rpq, Rvq and Rmq of ISO 13565-3: the plateau's and the valleys' line on the probability plot.
-
-    A fit for every profile; on a single Gaussian process the two lines are nearly one.
-    """
+    """Rpq, Rvq and Rmq of ISO 13565-3: the lines of plateau and valleys on the probability plot. A fit for every
+    profile; on a single Gaussian process the two lines are nearly one."""
     quantiles, heights, _ = _plotted(profile)
     return _hyperbola(quantiles, heights)[0]
 
 
 def _hyperbola(quantiles: np.ndarray, heights: np.ndarray) -> tuple[Plateau, np.ndarray]:
-    """Hyperbola through the plot within 2.5 sigma; its asymptotes are the two lines. Also what it leaves.
-
-    After ISO 13565-3, annex A, which also takes the asymptotes of a conic.
-    """
+    """Hyperbola through the plot within 2.5 sigma, with the two lines as asymptotes, and its residuals. After ISO
+    13565-3, annex A, which also takes the asymptotes of a conic."""
     from scipy.special import ndtr
 
     inner = np.abs(quantiles) <= 2.5
@@ -321,7 +317,7 @@ def _within_limits(profile: Profile) -> Profile:
 
 
 def _contact_ratio(heights: np.ndarray) -> tuple[float, float, float]:
-    """Mean overlap with a plane at 1, 2, 3 sigma above the mean, over that of Gaussian heights."""
+    """Mean overlap with a plane at 1, 2, 3 sigma above the mean, relative to Gaussian heights."""
     z = (heights - heights.mean()) / heights.std()
     first, second, third = (float(np.maximum(z - h, 0.0).mean() / area_integral(h)) for h in (1.0, 2.0, 3.0))
     return first, second, third

@@ -25,7 +25,7 @@ from roughness.spectrum import correlation_length
 from roughness.uncertainty import bootstrap, short_cutoff_band, smoothed_moments
 
 ROUNDING = 1e-13
-"""Bends of a trace below it, over its largest height, are what arithmetic leaves."""
+"""Second differences of a straight trace, over its largest height, are below this rounding error."""
 
 _LENGTHS = ("Ra", "Rq", "Rz", "Rt", "Rp", "Rv", "Rz1max")
 
@@ -44,12 +44,12 @@ def evaluation_profile(
 ) -> Profile:
     """The roughness profile of a trace by the usual steps: edges, form, outliers, lambda_s, lambda_c.
 
-    Cut-offs in m, None for none, or ``auto``: those the file says it has already passed are kept and not
-    applied again, nor a line taken off, else ISO 4288 and ISO 3274 choose. A short cut-off of fewer than two
-    points is left out. Edges of the part that the trace ran over are cut, unless ``edges`` is False; ``outliers``
-    masks what stands further than so many robust sigmas off. The ends are kept by local regression, which on
-    Gaussian surfaces estimates Rq, m2 and m4 at least as well as the shorter profile does that is left when
-    instruments cut half a cut-off (``trim_cutoffs`` 0.5). ``method`` as in :func:`roughness_profile`.
+    Cut-offs in m, None for none, or ``auto``: cut-offs that the file states as already applied are kept, without a
+    second filter or line removal, else ISO 4288 and ISO 3274 choose. A short cut-off of fewer than two points is left
+    out. Edges of the part are cut, unless ``edges`` is False; ``outliers`` masks points beyond this number of robust
+    sigmas. The ends are kept by local regression, which on Gaussian surfaces estimates Rq, m2 and m4 at least as well
+    as a profile cut by half a cut-off, as by instruments (``trim_cutoffs`` 0.5). ``method`` as in
+    :func:`roughness_profile`.
     """
     _refuse_useless(trace)
     if found := clipping(trace):
@@ -137,12 +137,12 @@ def profile_record(
     raw: Profile | None = None,
     band: Sequence[Moments] = (),
 ) -> dict[str, object]:
-    """The ``profile.json`` row of an evaluated profile; units in the names, None for what is undefined.
+    """The ``profile.json`` row of an evaluated profile; units in the names, None for undefined values.
 
-    ``raw`` is the trace as read: it shows the height step and the tip that filters hide. ``band`` holds the
-    moments at other short cut-offs; without it the profile is smoothed to twice its own. Convention and
-    sections default to those of the file (``origin``) where the profile is the one it was filtered to, else to
-    ISO 4287:1997 and to whole cut-offs.
+    ``raw`` is the trace as read, for the height step and the tip, which filters hide. ``band`` holds the moments at
+    other short cut-offs; without it the profile is smoothed to twice its short cut-off. Convention and sections default
+    to the rules of the file (``origin``) if the profile has the cut-offs of the file, else to ISO 4287:1997 and to
+    whole cut-offs.
     """
     own, sections_of_file = rules_of_the_file(profile, profile if raw is None else raw)
     convention = convention or own
@@ -228,7 +228,7 @@ def _asperities(found: Asperities) -> dict[str, object]:
 
 
 def _trust(profile: Profile, found: Moments, sections: int | None, band: Sequence[Moments]) -> dict[str, object]:
-    """What other short cut-offs, and other sampling lengths, would have made of the asperities."""
+    """Asperities at other short cut-offs, and their interval from resampled sampling lengths."""
     doubled = 2.0 * (found.short_cutoff or 2.0 * profile.spacing)
     if not band and doubled < profile.length / 2:
         band = (found, smoothed_moments(profile, doubled))
@@ -271,7 +271,7 @@ def _gaussian(found: NormalProbability | None) -> dict[str, object]:
 
 
 def _plain(value: object) -> object:
-    """Without nan and infinity, which JSON does not have."""
+    """Value with None in place of nan and infinity, which JSON does not have."""
     if isinstance(value, dict):
         return {k: _plain(v) for k, v in value.items()}
     if isinstance(value, list):
@@ -282,7 +282,7 @@ def _plain(value: object) -> object:
 
 
 def _refuse_useless(trace: Profile) -> None:
-    """Refuse too few heights, and those that are all one number or lie on a line but for rounding."""
+    """Raise an error for too few heights, equal heights, or heights on a straight line within rounding."""
     heights = trace.heights[trace.valid] if trace.valid.any() else trace.heights
     place = str(trace.origin.get("file", f"profile {trace.name!r}"))
     if trace.heights.size < FEWEST:

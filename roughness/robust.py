@@ -1,4 +1,4 @@
-"""Profile filters that outliers and steps do not pull: robust Gaussian regression and spline."""
+"""Profile filters robust to outliers and steps: robust Gaussian regression and spline."""
 
 from __future__ import annotations
 
@@ -90,9 +90,9 @@ def spline_mean_line(heights: np.ndarray, spacing: float, cutoff: float) -> np.n
 
 
 def regression_kernel(cutoff: float, spacing: float, order: int) -> np.ndarray:
-    """Gaussian weights whose local polynomial transmits one half at the cut-off.
+    """Gaussian weights for a local polynomial that transmits one half at the cut-off.
 
-    For orders 0 and 1 the plain Gaussian does. Order 2 transmits (1 + t) exp(-t), t = pi (alpha g lc/l)^2:
-    t = 1.67835 at one half, and g = sqrt(t / ln 2).
+    For orders 0 and 1 the plain Gaussian does. Order 2 transmits (1 + t) exp(-t), t = pi (alpha g lc/l)^2: t = 1.67835
+    at one half, and g = sqrt(t / ln 2).
     """
     return gaussian_kernel(cutoff * (1.5560 if order == 2 else 1.0), spacing)

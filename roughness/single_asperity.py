@@ -16,23 +16,21 @@ import numpy as np
 Factor = Callable[[np.ndarray], np.ndarray]
 
 POISSON_RATIO = 0.3
-"""Of hard metals; what the laws make of hardness depends on it weakly."""
+"""Poisson's ratio of hard metals; the effect of hardness in the laws depends on it weakly."""
 YIELD_FACTOR = 0.454 + 0.41 * POISSON_RATIO
 """K, the largest pressure at the onset of yield over hardness."""
 ONSET_FACTOR = 1.295 * np.exp(0.736 * POISSON_RATIO)
 """C, the largest pressure at the onset of yield over yield strength; Jackson and Green's."""
 HARDNESS_OVER_STRENGTH = 2.8
-"""Of a blunt indenter, D. Tabor, The Hardness of Metals (1951)."""
+"""Hardness of a blunt indenter over yield strength; D. Tabor, The Hardness of Metals (1951)."""
 MEAN_OVER_HARDNESS = 0.4
-"""k, the mean pressure at which Zhao, Maietta and Chang let an asperity begin to yield, over hardness."""
+"""k, the mean pressure at the onset of yield over hardness by Zhao, Maietta and Chang."""
 
 
 @dataclass(frozen=True)
 class Asperity:
-    """An asperity that yields: factors on the area and the load of Hertz from the first of ``edges`` on.
-
-    ``edges`` are the overlaps, over that of onset, at which the factors change form.
-    """
+    """An asperity that yields: factors on the area and the load of Hertz from the first of ``edges`` on. ``edges``:
+    overlaps, over the overlap at onset, at which the factors change form."""
 
     edges: tuple[float, ...]
     area: Factor

@@ -49,7 +49,7 @@ def power_density(profile: Profile) -> tuple[np.ndarray, np.ndarray]:
 
 
 def log_binned(wavenumber: np.ndarray, density: np.ndarray, *, per_decade: int = 12) -> tuple[np.ndarray, np.ndarray]:
-    """The spectrum averaged in equal steps of the logarithm, as it is drawn."""
+    """Spectrum averaged in equal steps of the logarithm, for drawing."""
     f, g = wavenumber[1:], density[1:]
     bins = np.floor(np.log10(f / f[0]) * per_decade).astype(int)
     count = np.bincount(bins)
@@ -64,8 +64,7 @@ def log_binned(wavenumber: np.ndarray, density: np.ndarray, *, per_decade: int =
 def autocorrelation(profile: Profile) -> np.ndarray:
     """Correlation of the heights with themselves, lags 0 to n-1 samples, 1 at lag 0.
 
-    The biased estimate (divided by n at every lag): it is a positive definite function, and its far end
-    fades instead of roaring.
+    The biased estimate (divided by n at every lag): it is a positive definite function, with little noise at long lags.
 
     >>> autocorrelation(Profile(np.array([1.0, -1.0, 1.0, -1.0]), 1e-6))
     array([ 1.  , -0.75,  0.5 , -0.25])
@@ -85,7 +84,7 @@ def autocorrelation(profile: Profile) -> np.ndarray:
 def correlation_length(profile: Profile, *, fall_to: float = 0.2) -> float:
     """Lag (m) at which the autocorrelation first falls to ``fall_to``; linear between samples.
 
-    ISO 25178-2 takes 0.2 for Sal, tribology often 1/e or 0.1. Infinite where it never falls that far.
+    ISO 25178-2 takes 0.2 for Sal, tribology often 1/e or 0.1. Infinite if the autocorrelation stays above.
     """
     correlation = autocorrelation(profile)
     below = np.flatnonzero(correlation <= fall_to)

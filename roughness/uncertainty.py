@@ -1,4 +1,4 @@
-"""How far moments and asperities can be trusted: short cut-off band and bootstrap over sampling lengths."""
+"""Uncertainty of moments and asperities: short cut-off band and bootstrap over sampling lengths."""
 
 from __future__ import annotations
 
@@ -33,10 +33,8 @@ def short_cutoff_band(
 
 @of_profile
 def smoothed_moments(profile: Profile, short_cutoff: float) -> Moments:
-    """Moments of a profile as if its short cut-off had been a longer one (m).
-
-    Two Gaussian low-passes in a row act as one whose cut-off squared is the sum of theirs.
-    """
+    """Moments of a profile as if its short cut-off had been a longer one (m). Two Gaussian low-passes in a row act as
+    one; the squares of their cut-offs add."""
     present = profile.cutoffs.get("short_cutoff", 0.0)
     if not short_cutoff > present:
         raise InputError(
@@ -56,9 +54,8 @@ def bootstrap(
     """Interval of m0, m2, m4 and McCool's asperities by resampling the sampling lengths.
 
     Sections drawn with replacement and their mean squares averaged give the scatter of each logarithm, widened by
-    sqrt(n/(n-1)) for the few there are; Student's t of n - 1 makes the interval of it. On simulated Gaussian
-    surfaces 90 % intervals of 3 to 10 sections hold the truth in 85 to 95 %. It does not see what every section
-    shares.
+    sqrt(n/(n-1)) for the few there are; Student's t of n - 1 makes the interval of it. On simulated Gaussian surfaces
+    90 % intervals of 3 to 10 sections hold the truth in 85 to 95 %. Errors common to all sections are not included.
     """
     from scipy.special import stdtrit
 
@@ -74,7 +71,7 @@ def bootstrap(
 
 @of_profile
 def resampled_moments(profile: Profile, random: np.random.Generator) -> Moments:
-    """Moments of as many sampling lengths as the profile has, drawn anew with replacement.
+    """Moments of a bootstrap sample of the profile's sampling lengths.
 
     >>> from profiles import shipped
     >>> from roughness import evaluation_profile

@@ -1,4 +1,4 @@
-"""Defaults that apply where `system.toml` leaves a key out: each key with the value that the model uses."""
+"""Defaults for keys missing in `system.toml`: each key with the value used in the model."""
 
 from __future__ import annotations
 
@@ -51,10 +51,8 @@ def oil_taken(section: system_file.Lubricant | None) -> dict[str, str]:
 
 
 def broadly_fitted(system: system_file.System, columns: Mapping[str, np.ndarray]) -> set[str]:
-    """Inputs that are not specified, so that a recording of these columns is fitted with a broad prior for them.
-
-    Empty where the case is invalid; reading the case reports that error.
-    """
+    """Unspecified inputs, fitted to a recording of these columns with a broad prior. Empty for an invalid case; reading
+    the case reports that error."""
     rules = kind_of(system.kind)
     if any(column.required and column.name not in columns for column in rules.columns):
         return set()
@@ -84,7 +82,7 @@ def assumed(case: Case, forward: Forward | None) -> Iterator[str]:
 
 
 def _not_fitted(forward: Forward | None) -> set[str]:
-    """Inputs of the rows, without those that are not specified and have to be fitted to the readings."""
+    """Inputs of the rows, without unspecified inputs that are fitted to the readings."""
     if forward is None:
         return set()
     stated = {key for key, sd in forward.case.system.uncertainty.model_dump().items() if sd > 0}

@@ -45,7 +45,7 @@ def case_files(case: Case) -> dict[str, str | bytes]:
 
 
 def _carry(carried: dict[str, bytes], folder: Path, name: str, key: str) -> str:
-    """Add a file to those that are carried; its new name, relative to the folder of the case."""
+    """Add a file to the carried files; return its new name, relative to the folder of the case."""
     content = named_file(folder, name, key).read_bytes()
     own = PurePosixPath(Path(name).as_posix())
     if own.is_absolute() or ".." in own.parts:

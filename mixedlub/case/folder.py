@@ -83,7 +83,7 @@ class Case:
 
 
 def _summary(table: Table) -> str:
-    """Rows and columns of a table in one line; the last columns are left out where they do not fit."""
+    """Rows and columns of a table in one line; the last columns are left out if too long."""
     spans = [span(name, values) for name, values in table.columns.items() if name != RUN.name]
     text = f"{len(table)} rows"
     for number, one in enumerate(spans):
@@ -113,10 +113,8 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
 
 
 def other_recordings(folder: Path) -> str:
-    """A hint on a file of recordings in another format, and the command that makes the table of it; else empty.
-
-    The rest of the case is kept by that command.
-    """
+    """Hint on a file of recordings in another format, with the command that makes its table and keeps the rest of the
+    case; else empty."""
     others = [p for p in sorted(folder.glob("*")) if p.name.lower().startswith("recordings.") and p.is_file()]
     if not others:
         return ""
@@ -189,13 +187,13 @@ def _checked(
 
 
 def read_conditions(case: Case, path: Path) -> Table:
-    """Another table of conditions for the case; rows are numbered after the recorded runs where it has no ``run``."""
+    """Another table of conditions for the case; without a column ``run``, rows are numbered after the recorded runs."""
     columns = _columns(case.kind, case.system, False)
     return _with_filled_sds(read_table(path, columns, first_run=_free_run(case), imported=True), f"{case.quantity}_sd")
 
 
 def conditions_for(case: Case, at: Frame) -> Table:
-    """Conditions to predict from a data frame, numbered after the recorded runs where it has no ``run``."""
+    """Conditions to predict from a data frame; without a column ``run``, numbered after the recorded runs."""
     frame = frame_of(at, "conditions")
     if RUN.name not in frame:
         first = _free_run(case)
@@ -206,7 +204,7 @@ def conditions_for(case: Case, at: Frame) -> Table:
 
 
 def unpredicted_runs(case: Case, wanted: Table | None) -> list[Finding]:
-    """Report conditions whose run number is that of a reading at other conditions; they are not predicted."""
+    """Report conditions with the run number of a reading at other conditions; they are not predicted."""
     runs = _used_runs(case, wanted)
     if wanted is None or not runs:
         return []
@@ -215,7 +213,7 @@ def unpredicted_runs(case: Case, wanted: Table | None) -> list[Finding]:
 
 
 def refuse_used_runs(case: Case, wanted: Table | None, path: Path) -> None:
-    """Refuse conditions whose run number is that of a reading at other conditions."""
+    """Raise an error for conditions with the run number of a reading at other conditions."""
     used = _used_runs(case, wanted)
     if used:
         rule = f"the run number is that of a reading at other conditions; number them from {_free_run(case)} on"
@@ -223,7 +221,7 @@ def refuse_used_runs(case: Case, wanted: Table | None, path: Path) -> None:
 
 
 def _free_run(case: Case) -> int:
-    """The first number after those of the recorded runs."""
+    """First number after the recorded runs."""
     return 1 if case.recordings is None else int(case.recordings["run"].max()) + 1
 
 
@@ -239,7 +237,7 @@ def _used_runs(case: Case, wanted: Table | None) -> list[int]:
 
 
 def at_programme_end(case: Case, wanted: Table) -> Table:
-    """Conditions to predict, at the end of the test programme where they have no place in it."""
+    """Conditions to predict, at the end of the test programme if they have no place in it."""
     if case.recordings is None or "sequence" in wanted or "sequence" not in case.recordings:
         return wanted
     text = "no column sequence: predicted for the end of the test programme"
@@ -248,7 +246,7 @@ def at_programme_end(case: Case, wanted: Table) -> Table:
 
 
 def _refuse_stuck(recordings: Table, quantity: str, folder: Path) -> None:
-    """Refuse a recorded channel whose readings are all equal."""
+    """Raise an error for a recorded channel with all readings equal."""
     if np.ptp(recordings[quantity]) == 0 and len(recordings) > 2:
         raise InputError(
             "all readings are the same number; a stuck channel cannot be diagnosed",
@@ -285,7 +283,7 @@ def _with_filled_sds(table: Table, name: str) -> Table:
 
 
 def _columns(found: Kind, system: system_file.System, measured: bool) -> tuple[Column, ...]:
-    """Columns that a table of the case may have; surface names are those of the system where the kind uses them."""
+    """Columns allowed in a table of the case; kinds with surfaces take the names of the system's surfaces."""
     names = tuple(system.surfaces) if "surfaces" in found.sections else ()
     own = (replace(c, names=names) if c.dtype == "name" and "surface" in c.name else c for c in found.columns)
     reach = found.column_limits(system)

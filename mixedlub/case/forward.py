@@ -83,13 +83,13 @@ class Forward:
         self._check_calibration()
 
     def _of_effect(self, place: tuple[str, str]) -> Calibration:
-        """The calibration of a parameter whose standard deviation the case states."""
+        """Calibration of a parameter with a standard deviation stated in the case."""
         effect, name = place
         e = next(e for e in self.known.effects if e.id == effect)
         return of_parameter(e, name, self.known.values[effect][name], self.known.sds[place])
 
     def _check_calibration(self) -> None:
-        """Refuse a calibration that the case names and that is none of its own."""
+        """Raise an error for a calibration in the case file that does not exist in the case."""
         names = [c.name for c in self.calibrations]
         for name in self.case.system.calibration:
             if name not in names:
@@ -100,7 +100,7 @@ class Forward:
         return self.model(("reading",), [known_in(self.case.kind.name)[e] for e in effects])
 
     def model(self, want: Sequence[str], effects: Sequence[Effect] = (), further: Chain = ()) -> Model:
-        """The base model of the case with more effects, and ``further`` laws behind its own."""
+        """Base model of the case with more effects, and ``further`` laws after its laws."""
         added = {e.id: e for e in (*self.known.effects, *self.uncertain_laws, *effects)}
         return Model((*self.chain, *further), tuple(self.inputs), want, tuple(added.values()))
 
@@ -140,7 +140,7 @@ class Forward:
         parameters: Parameters | None = None,
         near: Run | None = None,
     ) -> Run:
-        """Predict and keep the steps; given a run ``near`` with the same effects, only changed steps are recomputed."""
+        """Predict and keep the steps; with a run ``near`` of the same effects, only changed steps are recomputed."""
         calibration = {**self.case.system.calibration, **(calibration or {})}
         inputs, applied = self._calibrated(calibration, near)
         model = self._model(tuple(sorted(parameters or {})))
@@ -151,7 +151,7 @@ class Forward:
     def _calibrated(
         self, calibration: Mapping[str, float], near: Run | None
     ) -> tuple[Mapping[str, Any], Mapping[str, Move]]:
-        """The inputs at a calibration, and how it was applied; both of the run ``near`` by if that has the same."""
+        """Inputs at a calibration, and the moves applied; taken from the run ``near`` if equal there."""
         if near is not None and {name: move.value for name, move in near.applied.items()} == calibration:
             return near.inputs, near.applied
         inputs, applied = dict(self.inputs), {}

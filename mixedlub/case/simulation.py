@@ -1,4 +1,4 @@
-"""The base model at the conditions of a case, with the effects that the case names; nothing is fitted."""
+"""The base model at the conditions of a case, with the effects named by the case; nothing is fitted."""
 
 from __future__ import annotations
 
@@ -16,10 +16,8 @@ if TYPE_CHECKING:
 
 
 def simulate(case: Case, at: Table | None = None) -> pd.DataFrame:
-    """Run numbers and simulated readings, the conditions, recorded readings where there are any, and the validity.
-
-    The rows are those of recordings and conditions, or of the table ``at``; each run appears once.
-    """
+    """Run numbers and simulated readings, the conditions, recorded readings if any, and the validity. The rows are
+    recordings and conditions, or the table ``at``; each run appears once."""
     import pandas as pd
 
     parts = []

@@ -1,4 +1,4 @@
-"""Range of a case: which rows of a table are outside what the laws of its model are for."""
+"""Range of a case: rows of a table outside the valid range of the laws of its model."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ CHECKS: Chain = (
     ("film_over_contact_width", film_over_contact_width),
     ("asperity_load_ratio", asperity_load_ratio),
 )
-"""Quantities that are judged and that no reading depends on."""
+"""Judged quantities without influence on any reading."""
 OF_BASE_MODEL = ("asperities_overloaded",)
 """Codes that are notes here: the base model of a recording has no balance of load, so most rough surfaces have them."""
 

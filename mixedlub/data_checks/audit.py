@@ -1,4 +1,4 @@
-"""Data quality checks: what is implausible in a recording, found before anything is fitted."""
+"""Data quality checks: implausible values in a recording, reported before anything is fitted."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[Find
 
 
 def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[Finding]:
-    """What is implausible in the readings and their conditions; an error where they cannot be diagnosed."""
+    """Findings on the readings and their conditions; an error if no diagnosis is possible."""
     _readable(case, y)
     if all(np.unique(values).size == 1 for values in raw_coordinates(forward).values()):
         where = str(case.folder / "recordings.csv")
@@ -146,7 +146,7 @@ def _numbered(values: np.ndarray) -> np.ndarray:
 
 
 def _parts(case: Case, rows: Table) -> list[Finding]:
-    """Part rigs whose readings are compared with the whole model."""
+    """Finding on readings of part rigs that are compared with the whole model."""
     whole = np.setdiff1d(rows["rig"], case.kind.part_rigs) if "rig" in rows else np.array([])
     if whole.size < 2:
         return []
@@ -272,7 +272,7 @@ def _stuck(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[Fin
 
 
 def _warm(rows: Table) -> list[Finding]:
-    """Temperatures that are all above those of oils: often a column in kelvin."""
+    """Temperatures all above the range of oils: often a column in kelvin."""
     name = next((n for n in ("oil_temperature_C", "temperature_C") if n in rows), None)
     if name is None or not np.all(rows[name] > ranges()["conditions.oil_temperature_C"].typical[1]):
         return []
@@ -324,7 +324,7 @@ def _repeats(case: Case, y: np.ndarray) -> float:
 
 
 def _noise_source(case: Case, y: np.ndarray) -> list[Finding]:
-    """How the noise is estimated where the recording does not state it."""
+    """Method of the noise estimate, if the recording does not state the noise."""
     if is_stated(case):
         return []
     source = "repeats" if _repeats(case, y) > 0 else "the fit"

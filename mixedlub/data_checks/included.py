@@ -1,4 +1,4 @@
-"""Losses that a reading is said to include and that the model of the case lacks."""
+"""Losses stated as included in a reading but missing in the model of the case."""
 
 from __future__ import annotations
 

@@ -19,20 +19,20 @@ TOO_LARGE, ALONE = 50.0, 10.0
 """Judgement. Ratio of a reading to its expected value, and to the largest other reading, from which it is
 implausible."""
 NEGATIVE_SHARE, NEGATIVE_SIGMAS = 0.02, 5.0
-"""Judgement. Largest share of negative readings that counts as sign errors, and the sds below zero that each must
-be."""
+"""Judgement. Largest share of negative readings that counts as sign errors, and their least distance below zero in
+sds."""
 UNSTATED = 0.05
 """Judgement. Standard deviation assumed where none is stated, as a share of the median reading."""
 NEIGHBOURS = 6
 """Judgement. Readings at the nearest conditions that a reading is compared with: their median bears two wrong ones."""
 HAMPEL = 10.0
-"""Source: F. R. Hampel, J. Am. Stat. Assoc. 69 (1974) 383, whose identifier of outliers counts in 1.4826 times the
-median absolute deviation, usually 3 of them. Judgement: 10, as only the very far is reported."""
+"""Source: F. R. Hampel, J. Am. Stat. Assoc. 69 (1974) 383: outliers in units of 1.4826 times the median absolute
+deviation, usually from 3. Judgement: 10, as only the very far is reported."""
 FAR = 8.0
-"""Judgement. Distance of a reading from what its neighbours suggest, over that, from which it is implausible: a decimal
-point one place off makes it 9, and less may be an outlier of the rig."""
+"""Judgement. Deviation of a reading from the value suggested by its neighbours, over that value, from which it is
+implausible: a decimal point one place off makes it 9, and less may be an outlier of the rig."""
 BELOW_ZERO = 0.2
-"""Judgement. Size of a negative reading over its expected value, above which it is no offset or scatter."""
+"""Judgement. Size of a negative reading over its expected value, above which it is neither offset nor scatter."""
 SEVERAL = 3
 """Judgement. Negative readings that count as single ones in a small recording."""
 TO_SIGMA = 1.4826
@@ -42,10 +42,8 @@ DECADE = 10.0
 
 
 def misread(case: Case, rows: Table, y: np.ndarray, forward: Forward, reported: np.ndarray) -> list[Finding]:
-    """Single readings of implausible size or sign, compared with the base model scaled to the others.
-
-    Readings whose wrong sign is ``reported`` already are left out.
-    """
+    """Single readings of implausible size or sign, compared with the base model scaled to the others. Readings with a
+    wrong sign already in ``reported`` are left out."""
     base = forward.base_prediction()
     used = np.abs(base) > 0
     if used.sum() < FEWEST:
@@ -91,7 +89,7 @@ def far_from_neighbours(forward: Forward, y: np.ndarray, base: np.ndarray) -> np
 
 
 def _a_few_of_each(place: np.ndarray) -> np.ndarray:
-    """Readings at each place, evenly over its own, no more than are looked up: a tree cannot part equal points.
+    """A few readings at each place, evenly spread, at most the number looked up: a tree cannot part equal points.
 
     >>> _a_few_of_each(np.zeros((70, 1))).tolist(), _a_few_of_each(np.array([[0.0], [1.0], [0.0]])).tolist()
     ([0, 10, 20, 30, 40, 50, 60], [0, 1, 2])

@@ -27,8 +27,8 @@ SLIPS: Mapping[float, str] = {
 UNIT_TOLERANCE = 2.0
 """Judgement. Factor by which a wrong unit may differ from its power of ten: the accuracy of the base model."""
 COMMON_FACTOR, AGREED = 3.0, 1.25
-"""Judgement. Factor off the base model from which a condition is tried in other units, and the one left by the right
-unit: missing physics seldom multiplies all readings by one factor of that size."""
+"""Judgement. Factor off the base model from which a condition is tried in other units, and largest factor left by the
+right unit: missing physics seldom multiplies all readings by one factor of that size."""
 LEAST_PART = 0.1
 """Judgement. Least share of the readings that counts as a second unit rather than as outliers."""
 TEN = 10.0
@@ -102,7 +102,7 @@ def conditions_of_another_unit(case: Case, rows: Table, y: np.ndarray, base: np.
 
 
 def _in_unit(case: Case, table: Table, y: np.ndarray) -> np.ndarray | None:
-    """Logarithms of the readings over the base model of a changed table; None where the model has no answer."""
+    """Logarithms of the readings over the base model of a changed table; None if the model has no result."""
     try:
         with collected(), np.errstate(all="ignore"):
             found = _log_ratio(y, Forward(case, table).base_prediction())
@@ -118,7 +118,7 @@ def _log_ratio(y: np.ndarray, base: np.ndarray) -> np.ndarray:
 
 
 def of_two_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewest: int) -> list[Finding]:
-    """Readings of which a part differs from the rest by a power of ten, relative to the base model."""
+    """Readings with a part that differs from the rest by a power of ten, relative to the base model."""
     used = (np.abs(base) > 0) & (np.abs(y) > 0)
     if used.sum() < fewest:
         return []
@@ -170,7 +170,7 @@ def of_odd_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewes
 
 
 def atypical_sizes(rows: Table, y: np.ndarray, quantity: str) -> list[Finding]:
-    """Columns whose largest value exceeds that of any rig, with the unit in which it would be typical."""
+    """Columns with a largest value above the range of all rigs, with the unit in which it would be typical."""
     columns = {**rows.columns, quantity: y}
     return [
         one
@@ -181,7 +181,7 @@ def atypical_sizes(rows: Table, y: np.ndarray, quantity: str) -> list[Finding]:
 
 
 def too_thick(rows: Table, y: np.ndarray, quantity: str) -> list[Finding]:
-    """Viscosities that all exceed those of oils, although some are at room temperature and low pressure."""
+    """Viscosities all above the range of oils, although some are at room temperature and low pressure."""
     if quantity != "viscosity_mPa_s" or rows["temperature_C"].max() < WARM:
         return []
     if "pressure_MPa" in rows and rows["pressure_MPa"].min() > LOW_PRESSURE:
@@ -194,7 +194,7 @@ SIZED = ("entrainment_speed_m_s", "sliding_speed_m_s", "film_thickness_nm")
 
 
 def _power_between(case: Case, rows: Table, name: str, y: np.ndarray, base: np.ndarray) -> float | None:
-    """The power of ten between two parts of a condition whose other conditions and readings agree."""
+    """Power of ten between two parts of a condition with equal readings at equal other conditions, or None."""
     log = np.log10(np.abs(rows[name]))
     upper, gap = _upper_part(log)
     inner = max((_largest_gap(log[part]) for part in (upper, ~upper) if part.any()), default=0.0)

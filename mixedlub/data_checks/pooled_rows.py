@@ -1,4 +1,4 @@
-"""Ignored columns that distinguish samples or drives, whose rows are then pooled."""
+"""Ignored columns that distinguish samples or drives, so that their rows are pooled."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ VALUES_LISTED = 3
 
 
 def pooled_in(path: Path, table: Table, quantity: str) -> Iterator[Finding]:
-    """One finding for each ignored column of a case's table whose groups are pooled."""
+    """One finding for each ignored column of a case's table with pooled groups."""
     with path.open(encoding="utf-8-sig", newline="") as file:
         rows = [row for row in csv.reader(file) if any(cell.strip() for cell in row)]
     cells = {h.strip(): [cell.strip() for cell in values] for h, *values in zip(*rows, strict=True)}
@@ -44,10 +44,8 @@ def pooled_in(path: Path, table: Table, quantity: str) -> Iterator[Finding]:
 def grouping_columns(
     free: Mapping[str, Sequence[str]], conditions: Collection[np.ndarray]
 ) -> Iterator[tuple[str, Sequence[str]]]:
-    """The ignored columns that distinguish specimens, without those that another one subdivides.
-
-    ``free`` are the ignored columns, ``conditions`` the recorded test conditions.
-    """
+    """Ignored columns that distinguish specimens, without columns that another column subdivides. ``free`` are the
+    ignored columns, ``conditions`` the recorded test conditions."""
     candidates = {h: cells for h, cells in free.items() if _few(h, cells) and _distinguishes(h, cells, conditions)}
     for header, cells in candidates.items():
         if not any(_refines(other, cells) for h, other in candidates.items() if h != header):

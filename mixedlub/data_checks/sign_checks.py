@@ -22,7 +22,8 @@ RUNS_LISTED = 5
 
 
 def of_other_sign(case: Case, rows: Table, y: np.ndarray, sd: np.ndarray) -> np.ndarray:
-    """Readings whose sign differs from equally large ones at the same conditions; up to ``sd`` they count as zero."""
+    """Readings with a sign opposite to equally large readings at the same conditions; up to ``sd`` they count as
+    zero."""
     group, moves = _points(case, rows), _moves(case, rows)
     wrong = _against_others(y, group, moves & (np.abs(y) > sd))
     size = np.abs(y[moves & np.isin(group, np.unique(group[wrong]))])
@@ -31,7 +32,7 @@ def of_other_sign(case: Case, rows: Table, y: np.ndarray, sd: np.ndarray) -> np.
 
 
 def both_signs(case: Case, rows: Table, y: np.ndarray, wrong: np.ndarray) -> list[Finding]:
-    """A finding on the readings whose sign is ``wrong``."""
+    """Finding on the readings of ``wrong`` sign."""
     count = int(wrong.sum())
     if not count:
         return []
@@ -46,7 +47,7 @@ def both_signs(case: Case, rows: Table, y: np.ndarray, wrong: np.ndarray) -> lis
 
 
 def _against_others(y: np.ndarray, group: np.ndarray, large: np.ndarray) -> np.ndarray:
-    """Readings of the rarer sign in their group (negative ones in a tie) that are as large as those of the other sign.
+    """Readings of the rarer sign in their group (negative in a tie), as large as the readings of the other sign.
 
     >>> y = np.array([0.1, -0.1, 0.11, 0.1, -0.01, -0.2])
     >>> np.flatnonzero(_against_others(y, np.array([0, 0, 0, 1, 1, 2]), np.ones(6, bool))).tolist()
@@ -78,5 +79,5 @@ def _points(case: Case, rows: Table) -> np.ndarray:
 
 
 def _moves(case: Case, rows: Table) -> np.ndarray:
-    """Readings whose friction has a direction: a drive at rest may be held either way."""
+    """Readings with a direction of friction: a drive at rest may be held either way."""
     return np.ones(len(rows), bool) if case.kind.direction is None else case.kind.direction(rows) != 0.0

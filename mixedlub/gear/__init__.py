@@ -1,4 +1,4 @@
-"""Gears: from the data sheet to the contact points of a tooth pair and the load each carries."""
+"""Gears: from the data sheet to the contact points of a tooth pair and their loads."""
 
 from mixedlub.gear.distribution import LdpSharing, LoadDistribution, transmission_error
 from mixedlub.gear.geometry import GearPair

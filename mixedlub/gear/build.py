@@ -36,5 +36,5 @@ def gear_pair(section: system_file.Gears) -> GearPair:
 
 
 def sharing(section: system_file.LoadSharing, folder: Path) -> Sharing:
-    """How the load divides between tooth pairs, by ``load_sharing``."""
+    """Load sharing between tooth pairs, by ``load_sharing``."""
     return section.chosen.build(section, folder)

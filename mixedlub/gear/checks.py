@@ -1,4 +1,4 @@
-"""Checks of arrays handed to the gear room."""
+"""Checks of arrays given to the gear room."""
 
 from __future__ import annotations
 

@@ -85,7 +85,7 @@ def sainsot_foundation(root_to_bore: float, half_root_angle: float) -> tuple[flo
 def foundation_compliance(
     tooth: Tooth, roll_distance: np.ndarray, youngs_modulus: float, coefficients: tuple[float, ...]
 ) -> np.ndarray:
-    """Give of the wheel's body under the tooth, from the four coefficients of a foundation law."""
+    """Compliance of the wheel's body under the tooth, from the four coefficients of a foundation law."""
     angle = tooth.load_angle(roll_distance)
     arm = np.maximum(tooth.load_height(roll_distance) - tooth.height[0], 0) / tooth.root_chord
     square, linear, shear, slope = coefficients

@@ -1,4 +1,4 @@
-"""Where tooth pairs come into and go out of contact, and the length of the lines that they touch along."""
+"""Start and end of contact of tooth pairs, and the length of their contact lines."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ def contact_limits(pair: GearPair) -> np.ndarray:
 
 
 def rise(pair: GearPair) -> float:
-    """How much further on the path the back of a contact line is than its front, m; 0 for spur gears."""
+    """Lead of the back of a contact line over its front along the path, m; 0 for spur gears."""
     return pair.face_width * math.tan(abs(pair.base_helix_angle))
 
 
 def mid_face_path(pair: GearPair) -> tuple[float, float]:
-    """Positions (m) between which a tooth pair is in contact anywhere, told at the middle of the face."""
+    """Positions (m) at the middle of the face between which any part of a tooth pair is in contact."""
     return pair.path_start - rise(pair) / 2, pair.path_end + rise(pair) / 2
 
 

@@ -1,4 +1,4 @@
-"""Which points touch and what each carries: the linear complementarity problem of rigid approach.
+"""Points in contact and their loads: the linear complementarity problem of rigid approach.
 
 Batched: the first axis of every array is independent problems (mesh phases times torques).
 """
@@ -17,17 +17,16 @@ def share_out(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Forces, approach and touching points under a total force.
 
-    Find F >= 0 and the approach d with C F + gap = d + Y, Y >= 0, F Y = 0, sum(F) = total: the optimality
-    conditions of minimising F'CF/2 + gap'F, strictly convex for positive definite C.
+    Find F >= 0 and the approach d with C F + gap = d + Y, Y >= 0, F Y = 0, sum(F) = total: the optimality conditions of
+    minimising F'CF/2 + gap'F, strictly convex for positive definite C.
 
-    ``compliance`` (S, n, n), ``gap`` (S, n), ``total`` (S,) > 0, ``possible`` (S, n) points that may touch,
-    ``start`` (S, n) a first guess of those that do. Returns forces (S, n), approach (S,), touching (S, n).
+    ``compliance`` (S, n, n), ``gap`` (S, n), ``total`` (S,) > 0, ``possible`` (S, n) points that may touch, ``start``
+    (S, n) a first guess of the touching points. Returns forces (S, n), approach (S,), touching (S, n). All wrong points
+    are exchanged at once, which settles contact problems in a few rounds; unsettled problems then descend one exchange
+    at a time from a feasible point, which cannot cycle.
 
-    All wrong points are exchanged at once, which settles contact problems in a few rounds; what has not
-    settled then is descended one exchange at a time from a feasible point, which cannot cycle.
-
-    Source: Conry and Seireg 1971 for the statement; Hintermuller, Ito and Kunisch 2002 for the exchange of all
-    at once; Nocedal and Wright 2006, algorithm 16.3, for the descent.
+    Source: Conry and Seireg 1971 for the statement; Hintermuller, Ito and Kunisch 2002 for the exchange of all at once;
+    Nocedal and Wright 2006, algorithm 16.3, for the descent.
 
     >>> force, approach, touching = share_out(
     ...     np.eye(2)[None], np.array([[0.0, 5.0]]), np.array([3.0]), np.ones((1, 2), bool), np.ones((1, 2), bool))
@@ -62,7 +61,7 @@ def share_out(
 def _equalise(
     compliance: np.ndarray, gap: np.ndarray, total: np.ndarray, touching: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Forces and approach when exactly the given points touch; the others carry nothing."""
+    """Forces and approach when exactly the given points touch; the others carry no load."""
     problems, size = gap.shape
     scale = np.einsum("sii->s", compliance) / size
     both = touching[:, :, None] & touching[:, None, :]

@@ -1,4 +1,4 @@
-"""Contact beyond the ends of the path: the edge of a tip on the flank of its mate, where bent teeth let it touch."""
+"""Contact beyond the ends of the path: the edge of a tip on the flank of its mate, due to bending of the teeth."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ import numpy as np
 from mixedlub.gear.geometry import GearPair
 
 REACH = 0.25
-"""How far beyond the path edge contact is looked for, over the base pitch; rigid gaps there are tenths of a module."""
+"""Largest distance beyond the path for edge contact, over the base pitch; rigid gaps there are tenths of a module."""
 
 
 def corner_gap(pair: GearPair, position: np.ndarray) -> np.ndarray:
     r"""Gap (m) along the line of action between the edge of a tip and its mate's flank, outside the path of contact.
 
     ``position`` (m, any shape): where the flanks of unworn, endless involutes would touch; the gap is zero within the
-    path. Before A it is the edge of the gear's tip, beyond E that of the pinion's. Exact for rigid teeth: with the
-    path as the x axis through the base tangent point T of the mate, and s what is lacking to the end of the path, the
-    edge is turned back by s/r_b; gap = rho_P - r_b gamma - x, where rho_P is the mate's radius of curvature through
-    the edge and gamma the angle that its involute there has to turn to meet the path.
+    path. The edge is the gear's tip before A and the pinion's tip beyond E. Exact for rigid teeth: with the path as the
+    x axis through the base tangent point T of the mate, and s the distance to the end of the path, the edge is turned
+    back by s/r_b; gap = rho_P - r_b gamma - x, where rho_P is the mate's radius of curvature through the edge and gamma
+    the angle by which its involute there turns to meet the path.
 
     Source: derived; the approach of edge contact that Munro, Morrish and Palmer 1999 approximate by a series.
     """
@@ -29,7 +29,7 @@ def corner_gap(pair: GearPair, position: np.ndarray) -> np.ndarray:
 
 
 def _gap(base: tuple[float, float], length: float, end: float, position: np.ndarray) -> np.ndarray:
-    """Gap to the flank of the first wheel, whose base tangent point is the origin, of the tip edge that ends there."""
+    """Gap between the flank of the first wheel (base tangent point at the origin) and the tip edge of the other."""
     mate, own = base
     lacking = np.maximum(end - position, 0.0) / own
     across, up = end - length, -own

@@ -1,9 +1,9 @@
 """Elastic load distribution of spur and helical gears over tooth pairs and face width, in the manner of LDP.
 
 Every slice of every pair in contact is a point of one contact problem: teeth bend and shear as plates on elastic roots,
-flanks flatten, modifications stand back, bodies twist where asked, and one rigid approach closes all gaps. A slice of a
-helical pair at face position y touches at x + y tan(beta_b), x the position of the pair on the front face. Teeth couple
-through the approach and the twist of the bodies only.
+flanks flatten, modifications leave gaps, bodies twist if requested, and one rigid approach closes all gaps. A slice of
+a helical pair at face position y touches at x + y tan(beta_b), x the position of the pair on the front face. Teeth
+couple through the approach and the twist of the bodies only.
 """
 
 from __future__ import annotations
@@ -39,10 +39,10 @@ WHEELS = ("pinion", "gear")
 class LdpSharing:
     """Elastic sharing; modifications as in ``Modifications``, lengths in m.
 
-    ``foundation``: "weber" (half plane) or "sainsot" (ring, needs ``bore_radius``, m, pinion first; about a
-    fifth softer). ``torque_end``: the end of the face at which torque enters each body, "front" (y = 0) or "back", so
-    that it twists; "none" is a body that does not. ``body_radius`` of the twist: by default the middle of the
-    reference circle and the root, r - 0.625 m_n.
+    ``foundation``: "weber" (half plane) or "sainsot" (ring, needs ``bore_radius``, m, pinion first; about a fifth
+    softer). ``torque_end``: the end of the face at which torque enters each body and twists it, "front" (y = 0) or
+    "back"; "none": no twist. ``body_radius`` of the twist: by default the middle of the reference circle and the root,
+    r - 0.625 m_n.
     """
 
     tip_relief: Pair = (0.0, 0.0)
@@ -94,7 +94,7 @@ class LdpSharing:
         return 11 if pair.helix_angle == 0 else 17
 
     def check(self, pair: GearPair) -> tuple[Finding, ...]:
-        """Refuse undercut flanks, reliefs longer than the path, bores outside the range of the ring law."""
+        """Raise an error for undercut flanks, reliefs longer than the path, bores outside the range of the ring law."""
         self.modifications.check(pair)
         _refuse_undercut(pair)
         if self.foundation != "sainsot" or self.bore_radius is None:
@@ -116,7 +116,7 @@ class LdpSharing:
         return tuple(found)
 
     def body_radii(self, pair: GearPair) -> Pair:
-        """Radii (m) of the cylinders that twist."""
+        """Radii (m) of the twisting cylinders."""
         if self.body_radius is not None:
             return self.body_radius
         first, second = pair.reference_radius
@@ -158,7 +158,7 @@ class LdpSharing:
 
 
 def _refuse_undercut(pair: GearPair) -> None:
-    """Refuse a pair whose contact starts below the involute that a standard rack leaves."""
+    """Raise an error if contact starts below the involute that a standard rack leaves."""
     cosine = math.cos(pair.base_helix_angle)
     first = pair.path_start, pair.line_of_action_length - pair.path_end
     for wheel, name in enumerate(WHEELS):
@@ -180,7 +180,7 @@ class LoadDistribution:
     - ``phase`` (H,): position x (m) on the front face of the rearmost pair; pair p is ``p`` base pitches further on
     - ``position`` (H, P, N): where on the path each slice touches, m; ``face`` (N,): its middle, m from the front
     - ``force`` (T, H, P, N): N, zero where a slice does not touch; sums to T1/r_b1 over pairs and slices
-    - ``separation`` (T, H, P, N): what remains of the gap, m; infinite where a slice has left the path
+    - ``separation`` (T, H, P, N): remaining gap, m; infinite for a slice off the path
     - ``approach`` (T, H): along the line of action, m; it is the static transmission error
     - ``stiffness`` (T, H): slope of the total force over the approach, N/m
     """
@@ -209,11 +209,11 @@ def transmission_error(
     edge_contact: bool = False,
     pitch_deviation: Sequence[float] = (0.0,),
 ) -> LoadDistribution:
-    """Static transmission error over one base pitch, with the load distribution it comes from.
+    """Static transmission error over one base pitch, and its load distribution.
 
     ``torque`` in N m, one or many; ``phases`` equidistant positions a base pitch, half a step off its start.
     ``edge_contact`` lets tips touch beyond the path, with the compliance and curvature of its end. ``pitch_deviation``
-    (m): how far each of some successive tooth pairs stands back; over as many base pitches the error then repeats.
+    (m): set-back of successive tooth pairs; their number is the period of the error in base pitches.
 
     >>> hong = GearPair((17, 26), 25.4e-3 / 6, math.radians(22.5), 14e-3)
     >>> print(transmission_error(hong, LdpSharing(), [50, 150]).peak_to_peak.round(7))
@@ -248,7 +248,7 @@ def distribute(
 ) -> LoadDistribution:
     """Solve the contact problems of all torques (N m) at all phases (m, from the front position of the first contact).
 
-    ``stand_back`` (m), shape (phases, pairs): how far whole tooth pairs stand back, by their pitch.
+    ``stand_back`` (m), shape (phases, pairs): set-back of whole tooth pairs by pitch deviations.
     """
     pairs = _pairs(pair, edge_contact)
     stand_back = np.broadcast_to(stand_back, (phase.size, pairs))
@@ -335,7 +335,7 @@ def _solved(
 
 
 def _first_front(pair: GearPair, edge_contact: bool = False) -> float:
-    """Position on the front face of a pair whose back end comes into contact, m."""
+    """Position on the front face of a pair with its back end coming into contact, m."""
     return pair.path_start - rise(pair) - (REACH * pair.base_pitch if edge_contact else 0.0)
 
 
@@ -350,7 +350,7 @@ REGULAR_NODES = 32
 
 
 def _nodes(pair: GearPair, slices: int) -> np.ndarray:
-    """Phases (m) over one base pitch: equidistant ones, and both sides of where each slice comes and goes."""
+    """Phases (m) over one base pitch: equidistant, and on both sides of the start and end of each slice's contact."""
     first, pitch = _first_front(pair), pair.base_pitch
     lag = (np.arange(slices) + 0.5) / slices * rise(pair)
     enters, leaves = pair.path_start - lag, pair.path_end - lag

@@ -29,10 +29,10 @@ def involute(angle: float) -> float:
 
 
 def inverse_involute(value: float) -> float:
-    """Pressure angle whose involute function is ``value`` (>= 0), to machine accuracy.
+    """Pressure angle (rad) with the involute function ``value`` (>= 0), to machine accuracy.
 
-    Newton's method from the small-angle root (3 inv)^(1/3), which lies above the answer, so that the
-    convex function is descended without overshoot.
+    Newton's method from the small-angle root (3 inv)^(1/3), which lies above the answer, so that the convex function is
+    descended without overshoot.
 
     >>> round(math.degrees(inverse_involute(0.0149043838)), 6)
     20.0
@@ -67,7 +67,7 @@ def whole(key: str, value: Any, low: int, high: int) -> int:
 
 
 def two(key: str, values: Any) -> tuple[Any, Any]:
-    """The two entries, pinion first, of a quantity given once for each wheel."""
+    """The two entries, pinion first, of a quantity of both wheels."""
     if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
         raise InputError("two values are needed, pinion first", where=key, value=values)
     entries = tuple(values)
@@ -77,7 +77,7 @@ def two(key: str, values: Any) -> tuple[Any, Any]:
 
 
 def _only_external(teeth: tuple[Any, Any]) -> None:
-    """Refuse internal gears, whose number of teeth is negative by the convention of ISO 21771."""
+    """Raise an error for internal gears: by the convention of ISO 21771 their number of teeth is negative."""
     if not all(isinstance(count, (int, float)) for count in teeth) or min(teeth) >= 0:
         return
     small, large = sorted(abs(count) for count in teeth)
@@ -94,10 +94,10 @@ def _only_external(teeth: tuple[Any, Any]) -> None:
 class GearPair:
     """A pair of external involute cylindrical gears; first entry of every pair is the driving pinion.
 
-    Lengths in m, angles in rad, moduli in Pa. ``tip_radius=None`` takes the standard addendum
-    ``r + m_n (1 + x)``; ``dedendum`` is that of the basic rack over the module, which elastic teeth read.
-    ``centre_distance=None`` takes the backlash-free one of the profile shifts.
-    Anything that is not a working gear pair is refused with the name of its key in the ``[gears]`` table.
+    Lengths in m, angles in rad, moduli in Pa. ``tip_radius=None`` takes the standard addendum ``r + m_n (1 + x)``;
+    ``dedendum``: dedendum of the basic rack over the module, for elastic teeth. ``centre_distance=None`` takes the
+    backlash-free distance of the profile shifts. Data of no working gear pair raise an error with the key in the
+    ``[gears]`` table.
 
     Source: ISO 21771, geometry of cylindrical involute gears.
 
@@ -185,7 +185,7 @@ class GearPair:
         self._must_mesh()
 
     def _must_mesh(self) -> None:
-        """Refuse data that make no working pair of external gears."""
+        """Raise an error for data that make no working pair of external gears."""
         nominal = sum(self.reference_radius) * math.cos(self.transverse_pressure_angle)
         if self.centre_distance is None:
             if self._working_involute <= 0:
@@ -263,7 +263,7 @@ class GearPair:
 
     @cached_property
     def tip_radii(self) -> Pair:
-        """The tip radii given, or those of the standard addendum r + m_n (1 + x)."""
+        """Tip radii as given, or of the standard addendum r + m_n (1 + x)."""
         if self.tip_radius is not None:
             return self.tip_radius
         first, second = (
@@ -279,7 +279,7 @@ class GearPair:
 
     @cached_property
     def working_pressure_angle(self) -> float:
-        """alpha_wt of the given centre distance, or of the backlash-free one.
+        """alpha_wt of the given centre distance, or of the backlash-free distance.
 
         cos(alpha_wt) = (r_b1 + r_b2)/a_w, or inv(alpha_wt) = inv(alpha_t) + 2 tan(alpha_n) (x1+x2)/(z1+z2).
         """
@@ -337,7 +337,7 @@ class GearPair:
 
     @cached_property
     def pitch_point(self) -> float:
-        """x_C = r_b1 tan(alpha_wt), where nothing slides."""
+        """x_C = r_b1 tan(alpha_wt), the point without sliding."""
         return self.base_radius[0] * math.tan(self.working_pressure_angle)
 
     @cached_property

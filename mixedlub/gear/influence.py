@@ -1,10 +1,8 @@
-"""How far loads on the slices of all tooth pairs move the flanks: teeth, roots, bodies and local flattening.
-
-Forces are those along the line of action in the transverse plane, per slice; deflections are along that line. A
-helical tooth bends as that of its normal section: per length along the tooth, b/cos(beta), and normal to the flank, so
-that a compliance per face width in the transverse plane is cos(beta)/cos^2(beta_b) times that of the normal section.
-The factor cos(beta) of ISO 6336-1 is the same.
-"""
+"""Deflection of the flanks by loads on the slices of all tooth pairs: teeth, roots, bodies and local flattening. Forces
+and deflections are along the line of action in the transverse plane, per slice. A helical tooth bends like the tooth of
+its normal section: per length along the tooth, b/cos(beta), and normal to the flank, so that the compliance per face
+width in the transverse plane is cos(beta)/cos^2(beta_b) times the compliance of the normal section. The factor
+cos(beta) of ISO 6336-1 is the same."""
 
 from __future__ import annotations
 
@@ -30,7 +28,7 @@ Flattening = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 @lru_cache(maxsize=32)
 def _bodies(pair: GearPair, bore: Pair | None, slices: int) -> tuple[tuple[tuple[float, ...], Plate], ...]:
-    """Foundation coefficients and solved plate of both wheels; they depend on no load."""
+    """Foundation coefficients and solved plate of both wheels, independent of load."""
     bodies = []
     for wheel in (0, 1):
         body = tooth(pair, wheel)
@@ -45,7 +43,7 @@ def _bodies(pair: GearPair, bore: Pair | None, slices: int) -> tuple[tuple[tuple
 
 
 def _roll_distances(pair: GearPair, position: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """From the base tangent points of pinion and gear to the contact, in the normal section."""
+    """Distances from the base tangent points of pinion and gear to the contact, in the normal section."""
     cosine = math.cos(pair.base_helix_angle)
     return position / cosine, (pair.line_of_action_length - position) / cosine
 
@@ -81,8 +79,8 @@ def body_torsion(
     r"""Influence matrix of the twist of both wheels' bodies (m/N), shape (P N, P N); the same at every phase.
 
     A force at the distance y_k from the end where the torque enters turns the body by r_b min(y_j, y_k)/(G I) at the
-    distance y_j, I = pi r^4/2 of a solid cylinder, and the flank there by r_b times that. ``torque_end``: "front"
-    (y = 0), "back", or "none" for a body that does not twist.
+    distance y_j, I = pi r^4/2 of a solid cylinder, and moves the flank there by r_b times this angle. ``torque_end``:
+    "front" (y = 0), "back", or "none" for a body that does not twist.
 
     Source: Saint-Venant's torsion of a cylinder.
     """

@@ -1,4 +1,4 @@
-"""What the chain of laws reads of gears: contact points, motion and sizes of the wheels, by name of the glossary."""
+"""Gear inputs of the chain of laws: contact points, motion and sizes of the wheels, by name of the glossary."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def contact_inputs(points: Mesh, torque: np.ndarray, speed: np.ndarray) -> Input
 
 
 def motion_inputs(points: Mesh, torque: np.ndarray, speed: np.ndarray) -> Inputs:
-    """Chain inputs of the contact points but for the load they carry."""
+    """Chain inputs of the contact points without their load."""
     pair = points.pair
     low, high = pair.path_start, pair.path_end
     return {
@@ -40,7 +40,7 @@ def motion_inputs(points: Mesh, torque: np.ndarray, speed: np.ndarray) -> Inputs
 
 
 def gear_inputs(points: Mesh, speed: np.ndarray) -> Inputs:
-    """What losses outside the contact read: the sizes and speeds of the two wheels."""
+    """Inputs of losses outside the contact: sizes and speeds of the two wheels."""
     pair = points.pair
     return {
         "face_width": pair.face_width,

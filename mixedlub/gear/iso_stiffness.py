@@ -37,12 +37,12 @@ def iso_stiffness(
     r"""Single and mesh stiffness of ISO 6336-1.
 
     c' = c'_th C_M C_R C_B cos(beta) with C_M = 0.8 and C_B = [1 + 0.5 (1.2 - h_fP/m_n)] [1 - 0.02 (20 - alpha_n)];
-    c_gamma,alpha = c' (0.75 eps_alpha + 0.25), c_gamma,beta = 0.85 c_gamma,alpha. Other materials: c' E/206 GPa with
-    E = 2 E_1 E_2/(E_1 + E_2). Below 100 N/mm: c' times (line load/100 N/mm)^(1/4).
+    c_gamma,alpha = c' (0.75 eps_alpha + 0.25), c_gamma,beta = 0.85 c_gamma,alpha. Other materials: c' E/206 GPa with E
+    = 2 E_1 E_2/(E_1 + E_2). Below 100 N/mm: c' times (line load/100 N/mm)^(1/4).
 
-    ``line_load``: K_A F_t/b in N/m, None for a full load; ``dedendum`` h_fP of the basic rack over module, None for
-    the pair's; ``blank_factor`` C_R of thin rims, 1 of solid discs. Holds for x_1 >= x_2, -0.5 <= x_1 + x_2 <= 2 and
-    contact ratios from 1.2; else a finding says so.
+    ``line_load``: K_A F_t/b in N/m, None for a full load; ``dedendum`` h_fP of the basic rack over module, None for the
+    pair's; ``blank_factor`` C_R of thin rims, 1 of solid discs. Holds for x_1 >= x_2, -0.5 <= x_1 + x_2 <= 2 and
+    contact ratios from 1.2; outside it is a finding.
 
     Source: ISO 6336-1:2006, clause 9, method B.
 

@@ -1,6 +1,6 @@
 """Tooth loss factors: lost power over mesh friction and input power, P = mu_m H_V P_a.
 
-Closed ones follow from the data sheet; the local one weights the sliding speed with the load that each place carries.
+Closed factors follow from the data sheet; the local factor weights the sliding speed with the local load.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from mixedlub.gear.mesh import Mesh
 
 @dataclass(frozen=True)
 class LossFactor:
-    """A closed loss factor: its value and, where the pair lies outside, the range in which it holds."""
+    """A closed loss factor: its value and, for a pair outside it, the valid range."""
 
     name: str
     value: float
@@ -27,8 +27,8 @@ class LossFactor:
 def local_loss_factor(mesh: Mesh, torque: object) -> np.ndarray:
     r"""Loss factor of the local load, H_VL; shape of ``torque`` (N m, on the pinion).
 
-    H_VL = 1/t INT INT (f_N/F_tb) (v_g/v_tb) dy dt over the path of contact of one tooth pair, with f_N the normal
-    force per face width, v_g the sliding speed, F_tb = T1/r_b1 and v_tb = omega1 r_b1. The time t is that of one base
+    H_VL = 1/t INT INT (f_N/F_tb) (v_g/v_tb) dy dt over the path of contact of one tooth pair, with f_N the normal force
+    per face width, v_g the sliding speed, F_tb = T1/r_b1 and v_tb = omega1 r_b1. The time t is the time of one base
     pitch, so that P = mu H_VL P_a; with the time of engagement the loss would be low by the contact ratio.
 
     Source: Wimmer 2006, as equation 2 of "Measurement and Modelling of Friction for Cylindrical Gears with Pitch Line
@@ -106,7 +106,7 @@ CLOSED: dict[str, tuple[Callable[[GearPair], float], tuple[float, float]]] = {
 
 
 def loss_factors(pair: GearPair) -> tuple[LossFactor, ...]:
-    """All closed loss factors of a pair, each with a word where its contact ratio lies outside.
+    """All closed loss factors of a pair, marked if its contact ratio lies outside their range.
 
     >>> fzg = GearPair((16, 24), 4.5e-3, math.radians(20), 14e-3, 0.0, (0.1817, 0.1715), (41.23e-3, 59.18e-3), 91.5e-3)
     >>> print({factor.name: round(factor.value, 3) for factor in loss_factors(fzg)}["buckingham"])

@@ -1,4 +1,4 @@
-"""The contact points of one tooth pair along its path: where, how curved, how fast, how much load.
+"""The contact points of one tooth pair along its path: position, curvature, speeds and load.
 
 Everything is per unit of pinion speed, so that one mesh serves every operating condition:
 
@@ -22,18 +22,18 @@ from mixedlub.schema.findings import Finding
 from profiles.errors import InputError, refuse_other
 
 ROUNDED = 0.005
-"""How far beyond the path of contact, over its length, a recorded roll angle may lie: ends are rounded."""
+"""Largest distance of a recorded roll angle beyond the path of contact, over its length: ends are rounded."""
 
 
 @runtime_checkable
 class Sharing(Protocol):
-    """What a mesh needs of a way to share the load."""
+    """Interface of a load sharing for a mesh."""
 
     def default_slices(self, pair: GearPair) -> int:
         """Slices across the face when the caller names no number."""
 
     def check(self, pair: GearPair) -> tuple[Finding, ...]:
-        """Refuse a gear pair this sharing cannot serve; else what a reader should know of it."""
+        """Raise an error for an unsuitable gear pair; else return findings about the sharing."""
 
     def breakpoints(self, pair: GearPair) -> np.ndarray:
         """Positions (m) where the share may kink or jump."""
@@ -54,7 +54,7 @@ class Mesh:
     - ``sliding_per_speed``: u1 - u2 over omega1, m; negative before the pitch point, positive after
     - ``weight``: quadrature weight dx / (p_bt cos(beta_b)); zero where the points are no quadrature
     - ``face_fraction``: slice width over face width; ``face_position``: its middle, m from the front
-    - ``notes``: what a reader of the results should know about the sharing
+    - ``notes``: findings about the sharing
     """
 
     pair: GearPair
@@ -72,19 +72,19 @@ class Mesh:
 
     @property
     def contact_width(self) -> np.ndarray:
-        """Width (m) of the contact that each point stands for, and that its share of the load rests on: one slice."""
+        """Width (m) of the contact at each point, which carries its share of the load: one slice."""
         return self.face_fraction * self.pair.face_width
 
     @property
     def lag(self) -> np.ndarray:
-        """Base pitches by which each slice follows the front of the face: that of a helical pair comes first."""
+        """Delay of each slice behind the front of the face (base pitches); helical pairs touch there first."""
         return self.face_position * np.tan(abs(self.pair.base_helix_angle)) / self.pair.base_pitch
 
     def load_share(self, torque: object) -> np.ndarray:
         """Share of T1/r_b1 that each point's slice carries, shape ``torque.shape + (M,)``; torque in N m.
 
-        Summed over its slices it is the share of the tooth pair at that position. It acts on `contact_width`, not on
-        the whole face: `line_load` is the force per length.
+        Its sum over the slices is the share of the tooth pair at that position. It acts on `contact_width`, not on the
+        whole face: `line_load` is the force per length.
         """
         return self.sharing.load_share(self, torques_above_zero(torque))
 
@@ -107,9 +107,9 @@ class Mesh:
 def mesh(pair: GearPair, sharing: Sharing, *, points: int = 48, slices: int | None = None) -> Mesh:
     """The quadrature mesh over the whole path of contact.
 
-    Gauss-Legendre panels between the pitch point and every position where the sharing kinks or jumps, at
-    least three points each and about ``points`` in all; ``slices`` equal slices across the face (default:
-    what the sharing needs). ``sum(weight * f)`` is (1/p_bt) times the integral of f over the path (spur).
+    Gauss-Legendre panels between the pitch point and every position where the sharing kinks or jumps, at least three
+    points each and about ``points`` in all; ``slices`` equal slices across the face (default of the sharing).
+    ``sum(weight * f)`` is (1/p_bt) times the integral of f over the path (spur).
 
     Equal sharing between rigid teeth gives back Ohlendorf's loss factor of the FZG C test gear:
 
@@ -133,9 +133,8 @@ def mesh(pair: GearPair, sharing: Sharing, *, points: int = 48, slices: int | No
 def at_roll_angle(pair: GearPair, sharing: Sharing, roll_angle: object, *, slices: int | None = None) -> Mesh:
     """The contact points at given pinion roll angles (rad, one-dimensional), in the order given.
 
-    For local quantities such as the friction coefficient of one tooth; the weights are zero. Angles beyond
-    the path of contact by up to 0.5 % of its length are moved to its end (rounded recordings); others are
-    refused.
+    For local quantities such as the friction coefficient of one tooth; the weights are zero. Angles beyond the path of
+    contact by up to 0.5 % of its length are moved to its end (rounded recordings); others raise an error.
     """
     _check_parts(pair, sharing, "gear.at_roll_angle")
     angles = column("roll_angle_deg", np.atleast_1d(np.asarray(roll_angle)))
@@ -184,7 +183,7 @@ def _lay_out(
     slices: int,
     notes: tuple[Finding, ...],
 ) -> Mesh:
-    """Repeat positions over the slices and work out kinematics there."""
+    """Repeat positions over the slices and compute the kinematics."""
     x = np.repeat(position, slices)
     other = pair.line_of_action_length - x
     fraction = np.full(x.size, 1.0 / slices)

@@ -1,4 +1,4 @@
-"""Micro-geometry: how far a flank stands back from its involute, over path and face."""
+"""Micro-geometry: distance of a flank from its involute, over path and face."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class Modifications:
             raise InputError("'linear' or 'parabolic'", where="relief_form", value=self.relief_form)
 
     def check(self, pair: GearPair) -> None:
-        """Refuse a relief longer than the path of contact, or than the face."""
+        """Raise an error for a relief longer than the path of contact, or than the face."""
         path = "path of contact", pair.path_end - pair.path_start
         for key, lengths, (place, longest) in (
             ("relief_length_mm", self.relief_length, path),
@@ -109,7 +109,7 @@ class Modifications:
         return self._relief(*front, face_position) + self._relief(*back, pair.face_width - face_position)
 
     def _slopes(self, pair: GearPair, from_start: np.ndarray) -> np.ndarray:
-        """The pinion's tip is at the end of the path, the gear's at its start."""
+        """Gap of the profile slopes; the pinion's tip is at the end of the path, the gear's at its start."""
         share = from_start / (pair.path_end - pair.path_start)
         pinion, gear = self.profile_slope_deviation
         return pinion * share + gear * (1 - share)

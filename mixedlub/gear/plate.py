@@ -98,7 +98,8 @@ def tapered_plate(
 class _Along:
     """Integrals over the height of products of its polynomials, weighted with bending or shear stiffness.
 
-    ``slope``: both differentiated; ``mixed``: the first; ``springs``: root stiffness against lift, turn, both.
+    ``slope``: both polynomials differentiated; ``mixed``: only the first; ``springs``: root stiffness against lift,
+    turn, both.
     """
 
     bend: np.ndarray
@@ -119,8 +120,8 @@ def _condensed(
 ) -> np.ndarray:
     """Stiffness of the deflection alone; the rotations carry no load and follow.
 
-    ``lift``: face polynomials and derivatives of the deflection and of the rotation along the tooth; ``roll``:
-    those, of the other parity, of the rotation along the face.
+    ``lift``: face polynomials and derivatives of the deflection and of the rotation along the tooth; ``roll``: the
+    same, of the other parity, for the rotation along the face.
     """
     (y, dy), (z, dz) = lift, roll
     flat, slope = y.T @ (y * weight), dy.T @ (dy * weight)

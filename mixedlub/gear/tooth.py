@@ -1,8 +1,8 @@
 """The shape of a tooth as an elastic body: half thickness over height, from its root section to its tip.
 
-Above the fillet the flank is the involute of the gear pair; below, it is the trochoid that the rounded corner
-of a generating rack leaves. Coordinates: y along the tooth centreline from the wheel's axis. Helical teeth are seen
-in their normal section, as the spur gear that replaces them there.
+Above the fillet the flank is the involute of the gear pair; below, it is the trochoid of the rounded corner of a
+generating rack. Coordinates: y along the tooth centreline from the wheel's axis. Helical teeth are treated in their
+normal section, as the virtual spur gear.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ LEAST_CLEARANCE = 0.2  # of the mate's tip in the root of a deeper cut tooth, in
 
 @dataclass(frozen=True)
 class NormalSection:
-    """The spur gear that replaces a wheel in its normal section; radii in m. A spur wheel is its own.
+    """Virtual spur gear of a wheel in its normal section; radii in m. A spur wheel is unchanged.
 
-    z_n = z/(cos^2 beta_b cos beta) teeth of the normal module and pressure angle. What is ``x`` from the base tangent
-    point in the transverse plane is x/cos(beta_b) from it here, as the radius of curvature is.
+    z_n = z/(cos^2 beta_b cos beta) teeth of the normal module and pressure angle. A distance ``x`` from the base
+    tangent point in the transverse plane is x/cos(beta_b) here, like the radius of curvature.
 
     Source: ISO 21771 (virtual number of teeth); ISO 6336-3, virtual gears.
 
@@ -51,7 +51,7 @@ class NormalSection:
 
 
 def normal_section(pair: GearPair, wheel: int) -> NormalSection:
-    """The spur gear that replaces wheel 0 or 1."""
+    """Virtual spur gear of wheel 0 or 1."""
     square = math.cos(pair.base_helix_angle) ** 2
     reference = pair.reference_radius[wheel] / square
     if pair.helix_angle == 0:
@@ -74,11 +74,11 @@ def normal_section(pair: GearPair, wheel: int) -> NormalSection:
 
 @dataclass(frozen=True, eq=False)
 class Tooth:
-    """Half thickness of a tooth over its height, root section first, and what belongs to the root.
+    """Half thickness of a tooth over its height, root section first, and data of the root.
 
-    ``height`` is y (m) from the wheel's axis, ``half_thickness`` in m; ``root_radius`` is that of the root
-    circle; the involute begins ``involute_start`` (m) from the base tangent point. All per wheel, in the normal
-    section, where roll distances are those of the transverse plane over cos(beta_b).
+    ``height``: y (m) from the wheel's axis; ``half_thickness`` (m); ``root_radius`` of the root circle; the involute
+    begins ``involute_start`` (m) from the base tangent point. All per wheel, in the normal section, with roll distances
+    of the transverse plane over cos(beta_b).
     """
 
     base_radius: float
@@ -96,7 +96,7 @@ class Tooth:
 
     @property
     def half_root_angle(self) -> float:
-        """Half the angle (rad) that the root section fills, seen from the wheel's axis."""
+        """Half the angle (rad) of the root section, seen from the wheel's axis."""
         return math.atan(float(self.half_thickness[0] / self.height[0]))
 
     def load_angle(self, roll_distance: np.ndarray) -> np.ndarray:
@@ -104,7 +104,7 @@ class Tooth:
         return np.asarray(roll_distance) / self.base_radius - self.half_angle
 
     def load_height(self, roll_distance: np.ndarray) -> np.ndarray:
-        """Where the load line crosses the centreline, y_p = r_b / cos(alpha'), m from the axis."""
+        """Crossing of the load line and the centreline, y_p = r_b / cos(alpha'), m from the axis."""
         return self.base_radius / np.cos(self.load_angle(roll_distance))
 
     def depth(self, roll_distance: np.ndarray) -> np.ndarray:
@@ -115,7 +115,7 @@ class Tooth:
 
 
 def root_circle(pair: GearPair, wheel: int) -> float:
-    """Root radius (m) by the dedendum of the rack, or deeper where the mate's tip would else come too near.
+    """Root radius (m) by the dedendum of the rack, or smaller for clearance to the mate's tip.
 
     r - m_n (h_fP - x), at most a_w - r_a,mate - 0.2 m_n (deep profiles of high contact ratio need it).
     """

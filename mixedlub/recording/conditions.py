@@ -1,4 +1,4 @@
-"""Test conditions: which of them varied, and smooth functions of them as columns."""
+"""Test conditions: varied conditions, and smooth functions of them as columns."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from mixedlub.schema.table import Table
 NODES = 12
 """Judgement. Most nodes of the functions along a condition: finer structure is a wave, a peak or a step."""
 PASSING = ("sequence", "time_s", "position_deg")
-"""Conditions that pass by themselves, whose origin is arbitrary."""
+"""Conditions that pass by themselves, with an arbitrary origin."""
 FUNCTIONS_IN_PRODUCTS = 4
-"""Cost limit. Functions of a numeric condition that enter products with those of another."""
+"""Cost limit. Functions of a numeric condition in products with functions of another condition."""
 JITTER = 1e-6
 """Judgement. Diagonal added to the kernel of close nodes, so that it can be inverted: rounding."""
 SMALLEST = 1e-300
-"""Judgement. Smallest number whose logarithm is taken: near the smallest double."""
+"""Judgement. Smallest argument of a logarithm: near the smallest double."""
 PURE_ROLLING = 0.02
 """Judgement. Slide-roll ratio up to which a film measurement is pure rolling: under 5 % of the heat of full sliding."""
 NOISY_WITHIN = 0.1
@@ -46,7 +46,7 @@ LOST_AFTER = 2.0
 
 @dataclass(frozen=True, eq=False)
 class Coordinate:
-    """One condition scaled to 0..1, or a name; ``nodes`` are the places of its functions.
+    """A condition scaled to 0..1, or a name; ``nodes`` are the places of its functions.
 
     A condition with both signs has a ``symmetric_log`` scale, linear below that size. Values below the ``floor`` of a
     logarithmic scale count as one.
@@ -83,23 +83,21 @@ class Coordinate:
         return np.column_stack([np.cos(turn), np.sin(turn)]) * self.phase_known(values, waves)[:, None]
 
     def phase_known(self, values: np.ndarray, waves: float) -> np.ndarray:
-        """Share of a wave whose phase is known: one within the record, falling to none a few periods beyond it."""
+        """Share of a wave with a known phase: 1 within the record, falling to 0 a few periods beyond it."""
         low, high = self.ends
         beyond = np.maximum(np.maximum(low - values, values - high), 0.0) * waves / (high - low)
         return np.exp(-((beyond / LOST_AFTER) ** 2))
 
     def about(self, values: np.ndarray, at: float, width: float) -> np.ndarray:
-        """A bell of ``width`` (share of the range) about a value, or a step there if the width is zero.
-
-        A condition with both signs has one on either side.
-        """
+        """Bell of ``width`` (share of the range) about a value, or a step there for zero width. A condition with both
+        signs has one on either side."""
         x = self.scale(values)
         sides = (1.0, -1.0) if self.symmetric_log and at else (1.0,)
         off = [side * (x - self.scale(np.array(side * at))) for side in sides]
         return np.column_stack([np.exp(-0.5 * (d / width) ** 2) if width else (d >= 0.0).astype(float) for d in off])
 
     def functions(self, values: np.ndarray, length: float) -> np.ndarray:
-        """Columns whose random combination is a smooth function of the condition with variance one."""
+        """Columns; a random combination of them is a smooth function of the condition with variance one."""
         if self.named:
             return (values[:, None] == self.nodes[None, :]).astype(float)
         nodes = self.nodes
@@ -121,7 +119,7 @@ def unrolled(values: np.ndarray, logarithmic: bool, symmetric_log: float) -> np.
 
 
 def clock_of(rows: Table, ties: bool = False) -> np.ndarray | None:
-    """The column with the order of the readings; None where there is none, or where it has ties.
+    """Column with the order of the readings; None if missing or with ties.
 
     With ``ties`` half of the readings may share a time, as where a logger writes whole seconds.
 
@@ -185,7 +183,7 @@ def _noisy_span(name: str, size: float) -> float:
 
 
 def noisy_set_point(name: str, values: np.ndarray) -> float | None:
-    """The set point about which nearly all values of a condition scatter; None where it was varied or is exact.
+    """Set point about which nearly all values of a condition scatter; None for a varied or an exact condition.
 
     A few values far from it, as of a start-up, do not count.
 
@@ -271,7 +269,7 @@ def raw_coordinates(forward: Forward) -> dict[str, np.ndarray]:
 
 
 def coordinates(forward: Forward) -> Coordinates:
-    """The axes along which a recording varies; constant conditions count only where nothing else varies."""
+    """Axes of the varied conditions of a recording; constant conditions count only if nothing else varies."""
     every = {name: np.unique(values) for name, values in raw_coordinates(forward).items()}
     varied = {name: levels for name, levels in every.items() if levels.size > 1}
     held = [

@@ -40,7 +40,7 @@ class CorrelatedError:
 
     @property
     def total_sd(self) -> float:
-        """Total standard deviation of a reading, over that of the white noise alone."""
+        """Total standard deviation of a reading, relative to the white noise."""
         return float(np.hypot(1.0, self.size))
 
     @property
@@ -67,8 +67,8 @@ def karhunen_loeve_columns(share: np.ndarray, length: float, count: int) -> np.n
               \lambda = \frac{2 l}{1 + (\omega l)^2},\quad x = q - \tfrac12
 
     and sines with a minus sign between them; omega = m pi + 2 arctan(1/(omega l)). Karhunen-Loeve expansion of the
-    exponential covariance: R. G. Ghanem, P. D. Spanos, Stochastic Finite Elements, Springer (1991), section 2.3. So few
-    components that they lack some of the variance are what wanders a little more smoothly, and carry all of it.
+    exponential covariance: R. G. Ghanem, P. D. Spanos, Stochastic Finite Elements, Springer (1991), section 2.3. A
+    truncated series is a little smoother, and is scaled to the whole variance.
 
     >>> columns = karhunen_loeve_columns(np.array([0.2, 0.5, 0.6]), 0.2, 400)
     >>> (columns @ columns.T)[1].round(2).tolist()   # exp(-1.5), 1, exp(-0.5)

@@ -14,7 +14,7 @@ from mixedlub.schema import system_file
 from mixedlub.schema.table import Table
 
 KNOWN_FROM = 30
-"""Judgement. Tests from which a standard deviation counts as known: its own standard error is then 13 %."""
+"""Judgement. Tests from which a standard deviation counts as known, with a standard error of 13 %."""
 MARKS_UNUSABLE = 5.0
 """Judgement. Ratio to similar readings from which a standard deviation marks a reading as unusable."""
 LOG_SD_BIAS = 0.52
@@ -22,7 +22,7 @@ LOG_SD_BIAS = 0.52
 LOG_SD_VARIANCE = 1.23
 """Definition. Variance of ln s for two tests; from the chi distribution."""
 MOST_COMPARED = 2000
-"""Cost limit. Most readings whose standard deviations are compared pairwise."""
+"""Cost limit. Most readings in a pairwise comparison of standard deviations."""
 RELATIVE_FROM = 3.0
 """Judgement. Ratio of largest to smallest reading from which noise is taken as relative, if nothing else is known."""
 OUTLIERS_FROM = 10
@@ -103,16 +103,16 @@ def noise(
 
 
 def shrunk_sd(sd: np.ndarray, level: np.ndarray, near: np.ndarray) -> np.ndarray:
-    r"""Standard deviations from few tests, shrunk towards those of readings at similar conditions.
+    r"""Standard deviations from few tests, shrunk towards the values at similar conditions.
 
     .. math:: \ln s_i \leftarrow (1-w) \ln s_i + w \left(\frac{\sum_j K_{ij} \ln s_j}{\sum_j K_{ij}} + 0.52 v\right)
               ,\quad w = \frac{v}{v + v_0}
 
     ``near`` (n, n) is the similarity of the conditions of two readings, one for equal ones; v is half the squared
     difference of ln s between similar readings, from its median. For n tests ln s has the variance 1/(2(n - 1)) and a
-    bias of 0.5 to 0.8 of that; v_0 is the variance for KNOWN_FROM tests. Standard deviations that vary smoothly stay as
-    stated, and so does one more than MARKS_UNUSABLE times that of similar readings: it marks the reading as unusable.
-    Moderation of variances by their like: G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3 (2004) 3.
+    bias of 0.5 to 0.8 of that; v_0 is the variance for KNOWN_FROM tests. Smoothly varying standard deviations stay as
+    stated, and so do values above MARKS_UNUSABLE times the level of similar readings: they mark a reading as unusable.
+    Moderated variances: G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3 (2004) 3.
 
     >>> near = np.ones((4, 4))
     >>> shrunk_sd(np.array([1.0, 1.0, 1.0, 1.0]), np.ones(4), near).tolist()
@@ -223,7 +223,7 @@ def noise_from_repeats(case: Case, y: np.ndarray) -> float:
 
 
 def repeated(case: Case) -> np.ndarray | None:
-    """Group of each reading by equal conditions, numbered from 0; None where fewer than five are repeats."""
+    """Group of each reading by equal conditions, numbered from 0; None for fewer than five repeats."""
     return _groups(case, rows_of(case))
 
 
@@ -238,10 +238,8 @@ def _groups(case: Case, rows: Table) -> np.ndarray | None:
 
 
 def nearly_repeated(case: Case) -> np.ndarray | None:
-    """Group of each reading by nearly equal conditions: noisy constants are left out, set points are rounded.
-
-    None where all conditions are noisy constants, because readings at one set point are not repeats.
-    """
+    """Group of each reading by nearly equal conditions: noisy constants are left out, set points are rounded. None if
+    all conditions are noisy constants, because readings at one set point are not repeats."""
     rows = rows_of(case)
     columns, varied = {}, False
     conditions = {c.name for c in case.kind.columns}
@@ -270,9 +268,9 @@ def pooled_sd(y: np.ndarray, group: np.ndarray) -> float:
     r"""Standard deviation within groups (numbered from 0), outliers left out.
 
     Two readings of a group differ by N(0, 2 sd^2) whatever the group's size, so the median absolute difference is
-    sqrt(2) Phi^-1(3/4) sd = 0.9539 sd. Readings beyond four times what that gives, off the median of their group,
-    are left out (6e-5 of good ones), and the rest pooled. Below OUTLIERS_FROM repeats that median is too uncertain to
-    leave anything out by.
+    sqrt(2) Phi^-1(3/4) sd = 0.9539 sd. Readings further than four times this sd off the median of their group are left
+    out (6e-5 of good readings), and the rest is pooled. Below OUTLIERS_FROM repeats the median difference is too
+    uncertain to leave anything out.
 
     >>> y = np.array([1.0, 3.0, 2.0, 3.0, 11.0, 13.0, 12.0, 13.0, 21.0, 23.0, 22.0, 21.0, 31.0, 33.0, 32.0, 90.0])
     >>> round(pooled_sd(y, np.repeat([0, 1, 2, 3], 4)), 3)
@@ -290,7 +288,7 @@ def pooled_sd(y: np.ndarray, group: np.ndarray) -> float:
 
 
 def _typical_difference(y: np.ndarray, group: np.ndarray, count: np.ndarray) -> float:
-    """Median absolute difference of two readings of a group, each group weighing as much as it has repeats."""
+    """Median absolute difference of two readings of a group, with groups weighted by their number of repeats."""
     order = np.argsort(group, kind="stable")
     size = count[group[order]]
     start = (np.cumsum(count) - count)[group[order]]
@@ -310,11 +308,9 @@ def _typical_difference(y: np.ndarray, group: np.ndarray, count: np.ndarray) -> 
 
 
 def noise_from_smoothness(y: np.ndarray, base: np.ndarray, space: Coordinates, values: list[np.ndarray]) -> float:
-    """Standard deviation of the residuals of a smooth function of the conditions, without outliers.
-
-    The function may scale and shift the base model. It is the most flexible one that uses no more than half of the
-    degrees of freedom; those that it uses are subtracted.
-    """
+    """Standard deviation of the residuals of a smooth function of the conditions, without outliers. The function may
+    scale and shift the base model. It is the most flexible function with at most half of the degrees of freedom, which
+    are subtracted."""
     flat = np.column_stack([np.ones(y.size), base])
     rich = ((0.25, True), (0.25, False), (0.7, False))
     for columns in (

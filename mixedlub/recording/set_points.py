@@ -38,7 +38,7 @@ def set_points(values: np.ndarray) -> np.ndarray:
 
 
 def near_values(values: np.ndarray) -> np.ndarray:
-    """Index of the set point of each value; every value its own where the condition was swept.
+    """Index of the set point of each value; in a swept condition, of each distinct value.
 
     >>> near_values(np.array([0.5, 0.1, 0.1001, 0.2])).tolist()
     [2, 0, 0, 1]
@@ -51,7 +51,7 @@ def near_values(values: np.ndarray) -> np.ndarray:
 
 
 def _labels(ranked: np.ndarray, least: float) -> np.ndarray | None:
-    """Cluster of each ranked value, with neighbours nearer than ``least`` joined; None where a cluster is too wide."""
+    """Cluster of each ranked value, with neighbours nearer than ``least`` joined; None if a cluster is too wide."""
     label = np.concatenate([[0], np.cumsum(np.diff(ranked) > np.maximum(NEAR_SIZE * np.abs(ranked[1:]), least))])
     first = np.searchsorted(label, np.arange(label[-1] + 1))
     last = np.searchsorted(label, np.arange(label[-1] + 1), side="right") - 1
@@ -60,7 +60,7 @@ def _labels(ranked: np.ndarray, least: float) -> np.ndarray | None:
 
 
 def _clusters(ranked: np.ndarray, least: float) -> np.ndarray | None:
-    """Set points of ranked values, with neighbours nearer than ``least`` joined; None where the condition was swept."""
+    """Set points of ranked values, with neighbours nearer than ``least`` joined; None for a swept condition."""
     label = _labels(ranked, least)
     if label is None or 2 * (label[-1] + 1) > ranked.size:
         return None
@@ -90,7 +90,7 @@ def roundest(low: float, high: float) -> float:
 
 
 def one_point(low: float, high: float) -> float | None:
-    """The set point of a range, if it is no wider than one.
+    """Set point of a range, or None for a range wider than a set point.
 
     >>> one_point(2.996, 3.001), one_point(3.0, 9.0)
     (3.0, None)

@@ -1,1 +1,1 @@
-"""One file format a file: each a small class with a name, a format and a magic check."""
+"""Readers, one file format a module: each a small class with a name, a format and a magic check."""

@@ -1,4 +1,4 @@
-"""Zip archives and XML from strangers: sizes checked before anything is unpacked, no entities."""
+"""Zip archives and XML from outside: sizes checked before anything is unpacked, no entities."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ ZIP_FAULTS = (
     OSError,
     EOFError,
 )
-"""What Python's zip module raises on a damaged or locked archive."""
+"""Exceptions of Python's zip module on a damaged or locked archive."""
 
 
 GZIP, ZIP = b"\x1f\x8b", (b"PK\x03\x04", b"PK\x05\x06", b"PK\x07\x08")
@@ -31,7 +31,7 @@ GZIP, ZIP = b"\x1f\x8b", (b"PK\x03\x04", b"PK\x05\x06", b"PK\x07\x08")
 
 
 def unpacked(data: bytes, where: str, limit: int) -> bytes:
-    """The content of a file compressed by gzip; other content as it is."""
+    """Content of a file compressed by gzip; other content unchanged."""
     if data[:2] != GZIP:
         return data
     try:
@@ -45,7 +45,7 @@ def unpacked(data: bytes, where: str, limit: int) -> bytes:
 
 
 def refuse_broken(data: bytes, where: str) -> None:
-    """An error about content that begins as a zip archive and cannot be listed."""
+    """Raise an error for content that begins as a zip archive and cannot be listed."""
     if data[:4] in ZIP and not members(data):
         rule = "damaged or unsupported zip archive, which x3p and xlsx files are too: cut off?"
         raise InputError(rule, where=where)
@@ -63,7 +63,7 @@ def members(data: bytes) -> tuple[str, ...]:
 
 
 def member(data: bytes, name: str) -> bytes:
-    """One member of a zip archive; empty where it cannot be read or is larger than any list of contents."""
+    """One member of a zip archive; empty if unreadable or larger than any list of contents."""
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             return archive.read(name) if archive.getinfo(name).file_size <= MAX_INDEX else b""
@@ -72,7 +72,7 @@ def member(data: bytes, name: str) -> bytes:
 
 
 def check_archive(data: bytes, where: str, limit: int = MAX_UNPACKED) -> None:
-    """Refuse an archive whose members unpack to more than the limit, or that says XML entities may grow."""
+    """Raise an error for an archive that unpacks to more than the limit or has XML with entities."""
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             total = sum(info.file_size for info in archive.infolist())
@@ -88,7 +88,7 @@ def check_archive(data: bytes, where: str, limit: int = MAX_UNPACKED) -> None:
 
 
 def check_xml(data: bytes, where: str) -> None:
-    """Refuse XML that declares entities, which is how a small file grows to fill the memory."""
+    """Raise an error for XML that declares entities, by which a small file grows to fill the memory."""
     plain = data.replace(b"\x00", b"") if b"\x00" in data[:4] else data
     if b"<!ENTITY" in plain:
         raise InputError("XML entities are not allowed in a profile file", where=where)

@@ -1,4 +1,4 @@
-"""What every reader is, and the checks that every reader shares."""
+"""The interface of the readers, and the checks that all readers share."""
 
 from __future__ import annotations
 
@@ -21,11 +21,8 @@ MAX_POINTS = 20_000_000
 
 @dataclass(frozen=True)
 class Source:
-    """One file as a reader sees it: its bytes, what messages call it, and what the caller said of it.
-
-    ``unit`` holds the units of position and height the caller named (None: as the file says), ``spacing``
-    the step (m) the caller named.
-    """
+    """An input file: its bytes, its name in messages, and the settings of the caller. ``unit``: units of position and
+    height from the caller (None: as the file says); ``spacing``: step (m) from the caller."""
 
     where: str
     data: bytes
@@ -34,7 +31,7 @@ class Source:
 
     @property
     def bare(self) -> str:
-        """What messages call it, without the ending of a compressed file."""
+        """Name in messages, without the ending of a compressed file."""
         return re.sub(r"(?i)(?<=.)\.gz\Z", "", self.where)
 
     @property
@@ -43,7 +40,7 @@ class Source:
 
 
 class HoldsMap(InputError):
-    """A height map where a trace was asked for."""
+    """A height map in place of a trace."""
 
     def __init__(self, where: str, shape: tuple[int, ...]) -> None:
         file = PurePath(where).name
@@ -68,7 +65,7 @@ class Reader(Protocol):
 
 @contextmanager
 def foreign_parser(what: str, where: str) -> Iterator[None]:
-    """Around another project's parser: whatever it raises on a damaged file becomes an InputError."""
+    """Context around another project's parser: any exception on a damaged file becomes an InputError."""
     try:
         yield
     except InputError:
@@ -79,7 +76,7 @@ def foreign_parser(what: str, where: str) -> Iterator[None]:
 
 
 def checked_count(count: int, available: int, where: str) -> int:
-    """A declared number of points, refused before memory is spent when the file cannot hold it."""
+    """A declared number of points; an error, before memory is spent, if the file cannot hold it."""
     if not 3 <= count <= MAX_POINTS:
         raise InputError(f"the number of points must be from 3 to {MAX_POINTS}", where=where, value=count)
     if count > available:
@@ -88,7 +85,7 @@ def checked_count(count: int, available: int, where: str) -> int:
 
 
 def bridged(heights: np.ndarray, present: np.ndarray, where: str) -> np.ndarray:
-    """Heights with missing points bridged by straight lines; at least half must be there."""
+    """Heights with missing points bridged by straight lines; at least half must be present."""
     if present.all():
         return heights
     if 2 * np.count_nonzero(present) < heights.size or np.count_nonzero(present) < 3:

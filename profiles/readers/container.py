@@ -15,11 +15,9 @@ from profiles.readers.positions import RESAMPLED
 
 
 class ZipReader:
-    """Zip archive, such as a contact.engineering container: the one member that is a profile.
-
-    An error names the members when none or more than one can be read. Checked against the container of
-    SurfaceTopography (stylus text, AFM and TEM of one surface).
-    """
+    """Zip archive, such as a contact.engineering container, with a single profile among its members. An error names the
+    members when none or more than one can be read. Checked against the container of SurfaceTopography (stylus text, AFM
+    and TEM of one surface)."""
 
     name = "zip"
     format = "zip archive with one profile"

@@ -13,8 +13,8 @@ from profiles.units import known_length
 class DektakReader:
     """Dektak CSV: scan parameters, analytical results between cursors, then ``Scan Data``.
 
-    The lateral column is rounded; the step is its length over its points. The results the file holds go to
-    ``origin``: they depend on cursors and are not compared. Checked against the sample of SurfaceTopography.
+    The lateral column is rounded; the step is its length over its points. The results in the file go to ``origin``:
+    they depend on cursors and are not compared. Checked against the sample of SurfaceTopography.
     """
 
     name = "Dektak CSV"

@@ -1,4 +1,4 @@
-"""Formats of instruments that are not read: named by their first bytes or their ending, with a way out."""
+"""Formats of instruments without a reader: named by their first bytes or their ending, with a way out."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ FORMATS: tuple[tuple[str, tuple[bytes, ...], tuple[str, ...]], ...] = (
     ("a NanoScope file", (b"\\*File list", b"?*File list"), (".di", ".spm")),
     ("an OmniSurf3D height map", (b"OmniSurf3D",), (".os3d",)),
 )
-"""Name, first bytes and endings; first bytes after the file modules of Gwyddion and surfalize. Where a format has no
-known first bytes its ending decides, before the first bytes that it shares with another."""
+"""Name, first bytes and endings; first bytes after the file modules of Gwyddion and surfalize. For a format without
+known first bytes the ending decides, before first bytes shared with another format."""
 
 
 def foreign(source: Source, *, by_ending: bool) -> InputError | None:
-    """The error about a file of one of the formats, known by its first bytes; ``by_ending`` alone too.
+    """Error about a file of these formats, known by its first bytes or, with ``by_ending``, by its ending alone.
 
     >>> print(foreign(Source("a.sur", b"DSCOMPRESSED"), by_ending=False))
     a.sur: a Digital Surf surface, compressed; not read: export it as x3p, SDF or text

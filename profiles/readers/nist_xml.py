@@ -19,9 +19,8 @@ if TYPE_CHECKING:
 class NistXmlReader:
     """NIST XML: ``DATAFILE`` with UNITS, NUMPOINTS, SPACING and DATA_POINT_VALUES.
 
-    What NIST computed goes to ``origin["stated"]``; where it belongs to the profile after a short cut-off, that
-    one to ``origin["stated_short_cutoff"]``. Checked against four softgauges (NPL mill and EDM, ASME sine and
-    square).
+    NIST's parameters go to ``origin["stated"]``; a short cut-off before them to ``origin["stated_short_cutoff"]``.
+    Checked against four softgauges (NPL mill and EDM, ASME sine and square).
     """
 
     name = "NIST XML"
@@ -64,7 +63,7 @@ class NistXmlReader:
 
 
 def _short_cutoff(root: Element) -> float | None:
-    """The short cut-off (m) that NIST applied; None where it applied none."""
+    """Short cut-off (m) applied by NIST, or None."""
     try:
         cutoff = number_of(root.findtext("ANALYSIS/FILTER/SHORT_CUTOFF", "")) * metres(
             root.findtext("ANALYSIS/FILTER/UNITS", "")
@@ -75,7 +74,7 @@ def _short_cutoff(root: Element) -> float | None:
 
 
 def _values(root: Element, profile: str) -> dict[str, float]:
-    """Parameters of one profile by ISO symbol, those with a length in m; none where the file leaves them empty."""
+    """Parameters of one profile by ISO symbol, lengths in m; empty entries are left out."""
     results = root.find(f".//{profile}_SURFACE_PARAMETERS")
     if results is None:
         return {}

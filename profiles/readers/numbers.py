@@ -1,4 +1,4 @@
-"""Columns of numbers in text, as programs and people write them."""
+"""Columns of numbers in text, as written by programs and people."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ _ABSENT = re.compile(r"[-+]?(?:nan|inf|infinity|n/a|na|null|none|-+|\*+|#n/a|bad
 _SAMPLE = 200
 _COUNT = re.compile(r"\d{1,9}\Z")
 _COUNT_LINES = 3
-"""First lines of numbers among which a count of the rows is looked for."""
+"""First lines of numbers searched for a count of the rows."""
 _FEWEST_COUNTED = 10
-"""Rows below a count, at least: fewer are as many as a height says by chance."""
+"""Fewest rows below a count: fewer rows may equal a height by chance."""
 NO_NUMBERS = "no column of numbers found in the text"
 
 
 @dataclass(frozen=True)
 class Counted:
-    """The number of heights that a file states above them, its line, and the length stated beside it."""
+    """Number of heights stated in a file above the heights, its line, and the length beside it."""
 
     count: int
     line: int
@@ -36,7 +36,7 @@ class Counted:
 
 @dataclass(frozen=True)
 class Table:
-    """The columns of numbers, the lines above and below them, and the count of rows among the lines above."""
+    """Columns of numbers, the lines above and below, and the count of rows among the lines above."""
 
     header: tuple[str, ...]
     columns: np.ndarray
@@ -47,7 +47,7 @@ class Table:
     footer_line: int = 0
 
     def alone(self, where: str) -> Table:
-        """The table, where the format has no words below the numbers."""
+        """The table, for formats without words below the numbers."""
         if self.footer:
             rule = "the numbers end above this line; delete what is below"
             raise InputError(rule, where=f"{where}: line {self.footer_line}", value=self.footer[0])
@@ -55,7 +55,7 @@ class Table:
 
 
 def decoded(data: bytes, where: str) -> str:
-    """Text of a file in UTF-8, UTF-16 with its mark, or Latin-1; line ends of every system made one."""
+    """Text of a file in UTF-8, UTF-16 with its mark, or Latin-1, with line ends unified."""
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         try:
             text = data.decode("utf-16")
@@ -135,7 +135,7 @@ def _is_absent(line: str) -> bool:
 
 
 def table(text: str, where: str) -> Table:
-    """The one block of numbers of a text, with what stands above it."""
+    """Block of numbers of a text, with the lines above and below."""
     if "\x00" in text[:4096]:
         raise InputError("not a text of numbers (it holds binary zeros)", where=where)
     lines = text.split("\n")
@@ -160,7 +160,7 @@ def table(text: str, where: str) -> Table:
 
 
 def _end_of_numbers(lines: list[str], start: int) -> int:
-    """The number of lines without those at the end that begin with a word, as results of the instrument do."""
+    """Number of lines before those at the end that begin with a word, as results of the instrument do."""
     end = len(lines)
     while end > start and (not (line := lines[end - 1].strip()) or not (line[0] in "+-.,;*" or line[0].isdigit())):
         if line and _ABSENT.match(re.split(r"[,;\s]", line)[0]):
@@ -170,7 +170,7 @@ def _end_of_numbers(lines: list[str], start: int) -> int:
 
 
 def _counted(lines: list[str], start: int) -> Counted | None:
-    """The count of rows in the first lines of numbers; it equals the rows below, or can be no height."""
+    """Count of rows in the first lines of numbers: equal to the rows below, or impossible as a height."""
     above: list[float] = []
     for place in range(start, min(start + _COUNT_LINES, len(lines) - _FEWEST_COUNTED)):
         words = [word for word in re.split(r"[;\s]+", lines[place].strip()) if word]
@@ -204,7 +204,7 @@ def _is_no_height(word: str, below: list[str]) -> bool:
 
 
 def _parse(body: list[str], delimiter: str | None, comma: bool, width: int, where: str, first: int) -> np.ndarray:
-    """All rows at once, nan where a height is missing; only when that fails are the lines read one by one."""
+    """All rows at once, nan for missing heights; read line by line only if that fails."""
     words = [line.rstrip(" \t" + (delimiter or "")) for line in body]
     if comma:
         words = [line.replace(",", ".") for line in words]
@@ -223,7 +223,7 @@ def _parse(body: list[str], delimiter: str | None, comma: bool, width: int, wher
 
 
 def _row(line: str, delimiter: str | None, width: int, where: str) -> list[float]:
-    """The numbers of a line; a height may be missing, by a word for it or by an empty cell behind a delimiter."""
+    """Numbers of a line; a height may be missing, as a word or an empty cell behind a delimiter."""
     cells = split(line, delimiter)
     if delimiter is not None and 1 < width == len(cells) + 1:
         cells.append("nan")
@@ -244,7 +244,7 @@ def _row(line: str, delimiter: str | None, width: int, where: str) -> list[float
 
 
 def _quantum(sample: list[str], delimiter: str | None) -> float:
-    """The rounding of the first column: one unit of its last written digit, the finest of the sample."""
+    """Rounding of the first column: one unit of the last written digit, the finest of the sample."""
     finest = math.inf
     for line in sample:
         digits, _, power = split(line, delimiter)[0].replace(",", ".").lower().partition("e")

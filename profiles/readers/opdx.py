@@ -21,8 +21,8 @@ _CONTAINERS = (0x46, 0x47, 0x7D)
 class OpdxReader:
     """OPDx: named, typed, length-counted items, nested; the profile is the first scan under ``1D_Data``.
 
-    Height = number x ``DataScale``, spacing = ``Extent`` over the intervals. The layout was worked out from
-    the one sample of SurfaceTopography, against the text export of the same scan.
+    Height = number x ``DataScale``, spacing = ``Extent`` over the intervals. The layout was worked out from the single
+    sample of SurfaceTopography, against the text export of the same scan.
     """
 
     name = "OPDx"

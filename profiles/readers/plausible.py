@@ -1,4 +1,4 @@
-"""Which units make a table of plain numbers a measured trace."""
+"""Units that make a table of plain numbers a measured trace."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ USUAL = {
     ("mil", "uin"): 0.1,
     ("nm", "nm"): 0.03,
 }
-"""How usual a pair of units of position and height is in files; others have 0.01, inch beside metre 0.001."""
+"""Frequency weight of a pair of units of position and height in files; others have 0.01, inch beside metre 0.001."""
 
 _POSITIONS = ("m", "mm", "um", "nm", "in", "mil")
 _HEIGHTS = ("m", "mm", "um", "nm", "in", "mil", "uin")
@@ -33,13 +33,13 @@ Units = tuple[str | None, str | None]
 
 
 def inferred_units(step: float, heights: np.ndarray, where: str, known: Units = (None, None)) -> tuple[str, str]:
-    """The units of position and height under which the numbers clearly are a stylus or optical trace, or an error.
+    """Units of position and height that clearly make the numbers a stylus or optical trace, else an error.
 
-    A pair weighs as much as it is usual, less the further its step lies from 0.6 um and its typical slope from
-    0.05: exponential laws in decades, of scale 0.5, or 0.35 above the slope. Steps outside 5 nm to 50 um and
-    slopes outside 1e-5 to 2 are no traces. What is ``known`` stands. Units differ by less than traces do, so
-    several pairs may be traces: unless the best weighs ten times the next, both are named and refused. A trace
-    smoother than a slope of 2e-4 cannot be told from a thousand times rougher one and is read as that.
+    The weight of a pair is its frequency in files, reduced by the distance of its step from 0.6 um and of its typical
+    slope from 0.05: exponential laws in decades, of scale 0.5, or 0.35 above the slope. Steps outside 5 nm to 50 um and
+    slopes outside 1e-5 to 2 are excluded. ``known`` units are kept. Several pairs may be plausible, as units differ by
+    less than traces do: unless the best weighs ten times the next, the error names both. A trace smoother than a slope
+    of 2e-4 cannot be told from a thousand times rougher trace and is read as such.
     """
     if known[0] and known[1]:
         return known[0], known[1]
@@ -65,7 +65,7 @@ def inferred_units(step: float, heights: np.ndarray, where: str, known: Units = 
 
 
 def inferred_note(known: Units, found: tuple[str, str]) -> str:
-    """What was inferred, and beside what.
+    """Note on inferred units and the known units beside them.
 
     >>> inferred_note((None, "nm"), ("um", "nm"))
     'the file names nm for the heights only; inferred from the numbers: position um'
@@ -75,7 +75,7 @@ def inferred_note(known: Units, found: tuple[str, str]) -> str:
 
 
 def doubt(step: float, heights: np.ndarray) -> str | None:
-    """What no measured trace has: its step (m) or its typical slope, of heights in m."""
+    """Reason to doubt a trace: step (m) or typical slope outside measured traces, for heights in m."""
     slope = typical_slope(step, heights)
     if not _STEPS[0] <= step <= _STEPS[1]:
         return f"a step of {step * 1e6:.3g} um"

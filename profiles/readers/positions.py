@@ -1,4 +1,4 @@
-"""Positions of a trace: equal steps as they are, falling ones turned, unequal ones resampled."""
+"""Positions of a trace: equal steps kept, falling positions reversed, unequal steps resampled."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from profiles.errors import InputError
 from profiles.readers.base import MAX_POINTS, bridged
 
 GAP = 4.0
-"""Median steps beyond which a step is a gap: heights across it would be made up."""
+"""Median steps beyond which a step is a gap: heights across it would be invented."""
 DENSER = 10
-"""Resampled points a measured point, at most: beyond it the positions are no trace's."""
+"""Most resampled points per measured point; beyond it the positions are not from a trace."""
 
 
 RESAMPLED = "resampled to equal steps"
-"""How the note begins on a trace whose positions are unequal."""
+"""First words of the note on a trace with unequal positions."""
 
 
 @dataclass(frozen=True, eq=False)
 class Sampled:
-    """Heights at equal steps, which of them were measured, the step, and notes on the changes made."""
+    """Heights at equal steps, the mask of measured points, the step, and notes on the changes."""
 
     heights: np.ndarray
     present: np.ndarray
@@ -30,7 +30,7 @@ class Sampled:
 
 
 def sampled(positions: np.ndarray, heights: np.ndarray, present: np.ndarray, quantum: float, where: str) -> Sampled:
-    """The trace at equal steps, in the unit of its positions; ``quantum`` is the rounding of their column.
+    """Trace at equal steps, in the unit of its positions; ``quantum``: rounding of the position column.
 
     >>> x = np.array([0.0, 1.0, 2.5, 3.0, 4.0])
     >>> found = sampled(x[::-1], 2.0 * x[::-1], np.ones(5, bool), 0.1, "trace")
@@ -53,10 +53,8 @@ def sampled(positions: np.ndarray, heights: np.ndarray, present: np.ndarray, qua
 
 
 def equal_step(positions: np.ndarray, quantum: float) -> float | None:
-    """The step of rising positions that are equally spaced but for their rounding; None where they are not.
-
-    A column rounded to 0.1 um still has the step it was measured with: first to last over the count.
-    """
+    """Step of rising positions equally spaced within their rounding, else None. A column rounded to 0.1 um still has
+    the step of the measurement: first to last over the count."""
     step = float((positions[-1] - positions[0]) / (positions.size - 1))
     off = float(np.abs(positions - (positions[0] + step * np.arange(positions.size))).max())
     return step if off <= 1e-3 * step or (off <= 1.01 * quantum and quantum <= 0.75 * step) else None
@@ -65,7 +63,7 @@ def equal_step(positions: np.ndarray, quantum: float) -> float | None:
 def _resampled(
     positions: np.ndarray, heights: np.ndarray, present: np.ndarray, where: str, notes: tuple[str, ...]
 ) -> Sampled:
-    """Heights at the median step by a spline that keeps between its neighbours; across gaps straight lines, masked."""
+    """Heights at the median step by a spline without overshoot; gaps bridged by straight lines and masked."""
     from scipy.interpolate import PchipInterpolator
 
     steps = np.diff(positions)

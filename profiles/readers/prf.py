@@ -13,9 +13,9 @@ from profiles.units import known_length, metres, number_of
 class PrfReader:
     """PRF: ``CX`` and ``CZ`` axes, settings with ``SPACING CX``, heights as numbers, each part ended by EOR.
 
-    A height is number x scale x unit of the ``CZ`` line; the spacing has the unit of ``CX``. Masked points
-    are not known to the format. No file of an instrument was at hand: the layout is that of NPL's softgauge
-    help page, a public reader and a public writer, and was checked on constructed files.
+    A height is number x scale x unit of the ``CZ`` line; the spacing has the unit of ``CX``. The format has no masked
+    points. No file of an instrument was available: the layout follows NPL's softgauge help page, a public reader and a
+    public writer, checked on constructed files.
     """
 
     name = "PRF"

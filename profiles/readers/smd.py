@@ -14,9 +14,9 @@ from profiles.units import metres, number_of
 class SmdReader:
     """SMD: record 1 with the axes, record 2 with notes, record 3 with heights, record 4 with a checksum.
 
-    Records end with the character 3; fields may end with the character 0. Only equally spaced profiles
-    (axis ``CX I``) are read; the checksum is not verified. No file of an instrument was at hand: the layout
-    is that of NPL's softgauge help page and of a public program that writes it, checked on constructed files.
+    Records end with the character 3; fields may end with the character 0. Only equally spaced profiles (axis ``CX I``)
+    are read; the checksum is not verified. No file of an instrument was available: the layout follows NPL's softgauge
+    help page and a public writer, checked on constructed files.
     """
 
     name = "SMD"

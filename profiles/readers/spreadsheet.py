@@ -11,10 +11,8 @@ from profiles.readers.workbook import is_workbook, longest, worksheets
 
 
 class SpreadsheetReader:
-    """The longest sheet of numbers in a workbook, read as a text trace is: heading, units, spacing alike.
-
-    ``origin`` names the sheet where there are several. Checked against workbooks that openpyxl wrote.
-    """
+    """Longest sheet of numbers in a workbook, read like a text trace: heading, units, spacing. ``origin`` names the
+    sheet if there are several. Checked against workbooks that openpyxl wrote."""
 
     name = "workbook"
     format = "workbook (xlsx): [position,] height"

@@ -12,11 +12,9 @@ from profiles.readers.text import read_table
 
 
 class SurfcomReader:
-    """Surfcom text: rows ``position, height`` in mm and um without a header, told by the ending of the name.
-
-    The settings in .tx3 are another file: the cut-offs a .tx2 has passed are not known from it, and the
-    profile's ``steps`` say so. Checked against a public .tx1 file.
-    """
+    """Surfcom text: rows ``position, height`` in mm and um without a header, recognised by the ending of the name. The
+    settings are in a separate .tx3: the cut-offs of a .tx2 are unknown, and the profile's ``steps`` say so. Checked
+    against a public .tx1 file."""
 
     name = "Surfcom text"
     format = "Accretech Surfcom text, .tx1 .tx2"

@@ -28,19 +28,18 @@ _RESULT = re.compile(
     r"[\s,;:=\"]+([-+]?\d[\d.,]*)[\"\s,;]*(\S*)\s*\Z"
 )
 _HEIGHTS_STATED = "aqztpv"
-"""Second letters of the parameters that are heights: without a unit they have the unit of the heights."""
+"""Second letters of height parameters: without a unit they have the unit of the heights."""
 
 
 class TextReader:
     """Plain text and CSV with or without a header.
 
-    Line ends of any system (bare CR too), decimal point or comma, tab, blank, comma or semicolon between
-    columns. Units come from the caller, else from the header (``x_mm``, ``[mm]``, ``z (um)``,
-    ``unit: um``), else, one or both, from the pair of units that is clearly the most plausible; the profile's
-    ``steps`` and ``origin`` say when they were inferred, and when those of the heading are not plausible.
-    Positions that fall are turned, unequal ones resampled. A height that is empty or reads ``NaN`` is masked. A
-    count of the heights in the first lines of numbers is none of them: with a length beside it, it gives the step.
-    Results below the numbers go to ``origin["stated"]``.
+    Line ends of any system (bare CR too), decimal point or comma, tab, blank, comma or semicolon between columns. Units
+    come from the caller, else from the header (``x_mm``, ``[mm]``, ``z (um)``, ``unit: um``), else, one or both, from
+    the clearly most plausible pair of units; the profile's ``steps`` and ``origin`` name inferred units and implausible
+    units of a heading. Falling positions are reversed, unequal steps resampled. A height that is empty or reads ``NaN``
+    is masked. A count of the heights in the first lines of numbers is not a height; with a length beside it, it gives
+    the step. Results below the numbers go to ``origin["stated"]``.
 
     Checked against the nine text traces of public repositories in the test data and constructed files.
     """
@@ -59,7 +58,7 @@ class TextReader:
 def read_table(
     source: Source, content: Table, origin: dict[str, object] | None = None, notes: tuple[str, ...] = ()
 ) -> Profile:
-    """The profile of a table of one or two columns; ``origin`` and ``notes`` are what its reader knows."""
+    """Profile of a table of one or two columns; ``origin`` and ``notes`` come from its reader."""
     settings = header_settings(content.header)
     columns = content.columns
     if columns.shape[0] > 2:
@@ -91,7 +90,7 @@ Read = tuple[Sampled, tuple[str, str], tuple[str, ...]]
 def _read_heights(
     source: Source, content: Table, settings: dict[str, str], written: Units, origin: dict[str, object]
 ) -> Read:
-    """One column of heights, with the step of a setting, of the caller, or of a length over a count."""
+    """One column of heights; the step comes from a setting, the caller, or a length over a count."""
     heights, present = content.columns[0], np.isfinite(content.columns[0])
     step = _header_spacing(settings, source.where)
     if step is None and content.counted and content.counted.length and (written[0] or source.spacing is None):
@@ -118,7 +117,7 @@ def _read_heights(
 def _read_pairs(
     source: Source, content: Table, settings: dict[str, str], written: Units, origin: dict[str, object]
 ) -> Read:
-    """Positions and heights; units that the file does not name are inferred."""
+    """Positions and heights; units missing in the file are inferred."""
     position, present = content.columns[0], np.isfinite(content.columns[1])
     found, unit = _own_steps(source, position, content.columns[1], present, content.quantum, written[0], origin)
     known = unit, written[1]
@@ -140,7 +139,7 @@ def _own_steps(
     unit: str | None,
     origin: dict[str, object],
 ) -> tuple[Sampled, str | None]:
-    """The trace at equal steps and their unit; at the caller's step where the positions have no equal one or unit."""
+    """Trace at equal steps and its unit; the caller's step for positions without an equal step or unit."""
     told = source.spacing
     if told is None:
         return sampled(position, heights, present, quantum, source.where), unit
@@ -168,7 +167,7 @@ def _own_steps(
 
 
 def _count_notes(content: Table, settings: dict[str, str], origin: dict[str, object]) -> tuple[str, ...]:
-    """A note on a count above the heights; where it is another than their number, ``origin`` says so."""
+    """Note on a count above the heights; a count different from their number is stated in ``origin``."""
     counted = content.counted
     if counted is None:
         stated = next((settings[name] for name in _COUNT_NAMES if settings.get(name, "").isdecimal()), None)
@@ -184,7 +183,7 @@ def _count_notes(content: Table, settings: dict[str, str], origin: dict[str, obj
 
 
 def _results(content: Table, unit: float, origin: dict[str, object]) -> tuple[str, ...]:
-    """A note on the lines below the heights; the results of the instrument among them go to ``origin``."""
+    """Note on the lines below the heights; the instrument's results among them go to ``origin``."""
     if not content.footer:
         return ()
     stated = {}
@@ -226,10 +225,8 @@ def _header_spacing(settings: dict[str, str], where: str) -> float | None:
 
 
 def _header_units(content: Table, settings: dict[str, str], where: str) -> Units:
-    """Units written over the columns, else as a setting; None for those that are not.
-
-    A length beside what claims another unit, as a volt, is refused.
-    """
+    """Units written over the columns, else in a setting, else None. An error for a length beside another unit, such as
+    a volt."""
     width = content.columns.shape[0]
     found: Units = (None, None)
     for line in reversed(content.header[-3:]):
@@ -254,7 +251,7 @@ def _header_units(content: Table, settings: dict[str, str], where: str) -> Units
 
 
 def _overruled(source: Source, content: Table, settings: dict[str, str]) -> dict[str, object]:
-    """The units in the header where the caller named others; a header that names no lengths is no contradiction."""
+    """Units of the header overruled by the caller; a header without lengths does not contradict."""
     if source.unit is None:
         return {}
     try:
@@ -270,7 +267,7 @@ def _overruled(source: Source, content: Table, settings: dict[str, str]) -> dict
 
 
 def _pair(units: Sequence[str | None]) -> str:
-    """Units of position and height in words, or of height alone; unknown ones left out.
+    """Units of position and height in words, or of height alone; without unknown units.
 
     >>> _pair(("mm", "um")), _pair(("um",)), _pair((None, "nm"))
     ('position mm, height um', 'height um', 'height nm')
@@ -282,21 +279,20 @@ def _pair(units: Sequence[str | None]) -> str:
 def _cell_unit(cell: str) -> str | None:
     """The unit in a column's heading: ``x_mm``, ``z [um]``, ``Lateral um``, ``z/nm``, ``(mm)`` or ``mm``.
 
-    Words that mean other things too need more: ``a`` and ``in`` brackets, ``in`` and ``m`` at least a slash,
-    ``m`` an underscore.
+    Ambiguous words need more: ``a`` and ``in`` brackets, ``in`` and ``m`` at least a slash, ``m`` an underscore.
     """
     mark, word = _last_word(cell)
     return known_unit(word) if mark in _MARKS.get(word.lower(), mark) else None
 
 
 def _claims_another(cell: str) -> bool:
-    """Whether a heading ends in a unit that is no length, or in a marked word that is no unit at all."""
+    """Whether a heading ends in a unit other than a length, or in a marked word that names no unit."""
     mark, word = _last_word(cell)
     return not known_unit(word) and (mark != " " or word.lower() in _NO_LENGTHS)
 
 
 def _last_word(cell: str) -> tuple[str, str]:
-    """The last word of a heading and the mark before it, a blank where there is none."""
+    """Last word of a heading and the mark before it, a blank if none."""
     cell = cell.strip(' "')
     match = _LAST_WORD.search(cell)
     return (match[1], match[2]) if match else (" ", cell)

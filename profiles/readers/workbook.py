@@ -16,23 +16,23 @@ from profiles.readers.archive import check_archive, members
 from profiles.readers.base import foreign_parser
 
 UNCALCULATED = "#FORMULA"
-"""Cell of a formula that no program has calculated, so that the file holds no value for it."""
+"""Cell of a formula without a calculated value in the file."""
 _NUMBER = re.compile(
     r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+|\d{1,3}(?:[ '’]\d{3})+(?:[.,]\d*)?|\d{1,3}(?:([.,])\d{3})(?:\1\d{3})*[.,]\d+)"
     r"(?:[eE][-+]?\d+)?"
 )
 _THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d*)?")
-"""A number whose commas separate thousands."""
+"""A number with commas as thousands separators."""
 LAST_ROW, LAST_COLUMN = 1_048_576, 16_384
-"""Size of a sheet by the format."""
+"""Size of a sheet in the format."""
 
 
 @dataclass(frozen=True)
 class Worksheet:
-    """A sheet of a workbook: a line of text a row, tabs between cells; how many rows hold numbers.
+    """A sheet of a workbook: a line of text a row, tabs between cells; number of rows with numbers.
 
-    ``percent`` are the columns, by their letters, whose numbers the workbook shows times 100, ``as_text`` those with
-    numbers that are stored as text. ``hidden_rows`` are in the text too.
+    ``percent``: letters of the columns with numbers shown times 100; ``as_text``: columns with numbers stored as text.
+    ``hidden_rows`` are in the text too.
     """
 
     name: str
@@ -50,7 +50,7 @@ def is_workbook(data: bytes) -> bool:
 
 
 def worksheets(data: bytes, where: str) -> tuple[Worksheet, ...]:
-    """The sheets of a workbook, with the values that its formulas had when it was saved."""
+    """Sheets of a workbook, with the values of formulas when it was saved."""
     check_archive(data, where)
     from openpyxl.reader.excel import ExcelReader
     from openpyxl.styles.stylesheet import apply_stylesheet
@@ -109,7 +109,7 @@ class _Rows:
         self.percent_styles = {str(i) for i, style in enumerate(book._cell_styles) if "%" in _format(book, style)}
 
     def read(self, xml: bytes) -> Worksheet:
-        """The sheet in its XML, whose entities were refused before."""
+        """Sheet from its XML, after the check for entities."""
         parser = expat.ParserCreate()
         parser.buffer_text = True
         parser.StartElementHandler, parser.EndElementHandler = self._start, self._end
@@ -172,7 +172,7 @@ class _Rows:
                 row.append(text)
 
     def _text(self, written: str) -> str:
-        """The value of a cell in one line; a number in the fewest digits that read back equal."""
+        """Value of a cell in one line; a number in the fewest digits that read back equal."""
         kind, style = self.cell.get("t", "n"), self.cell.get("s", "0")
         if kind in ("s", "str", "inlineStr"):
             text = " ".join((self.strings[int(written)] if kind == "s" else written).split())

@@ -1,7 +1,7 @@
-"""The six shipped traces: synthetic, so labelled, with the Ra, Rq and Rz of six finished gear flanks.
+"""The six shipped traces: synthetic, labelled so, with the Ra, Rq and Rz of six finished gear flanks.
 
 Named after their Ra in nanometres, as in table 1 of Hong, Aneshansley and Talbot. They are not the authors'
-measurements, which are not public: the recipes in ``recipes.toml`` say what was put in and why.
+measurements, which are not public: the recipes in ``recipes.toml`` state the ingredients and the reasons.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from profiles.profile import Profile
 
 SHIPPED = ("0036", "0122", "0219", "0258", "0302", "0450")
 SHIPPED_MARK = "shipped:"
-"""Before the name of a shipped trace where a file could be named as well."""
+"""Prefix of the name of a shipped trace, where a file is allowed as well."""
 
 
 def shipped(name: str, where: str = "shipped trace") -> Profile:
-    """One of the shipped traces, by its name with or without the mark; ``where`` is the place that names it.
+    """A shipped trace, by its name with or without the mark; ``where``: place of the name, for messages.
 
     >>> trace = shipped("0258")
     >>> trace.name, trace.origin["kind"], round(trace.length * 1e3, 3)

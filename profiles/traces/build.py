@@ -1,4 +1,4 @@
-"""Rebuilds the shipped traces from their recipes, bit for bit: ``python -m profiles.traces.build [DIR]``."""
+"""Rebuild of the shipped traces from their recipes, bit for bit: ``python -m profiles.traces.build [DIR]``."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def heights(recipe: Mapping) -> np.ndarray:
 
 
 def text(name: str, recipe: Mapping) -> str:
-    """The file of a shipped trace: what it is, its recipe, and the heights to 0.1 nm."""
+    """File of a shipped trace: its kind, its recipe, and the heights to 0.1 nm."""
     lines = [
         f"# name: {name}",
         "# kind: synthetic, not a measurement",

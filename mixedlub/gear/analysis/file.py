@@ -1,4 +1,4 @@
-"""A file of a gear pair whose loaded contact is asked for."""
+"""File of a gear pair for the analysis of its loaded contact."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Iso6336(Section):
 
 
 class GearAnalysisFile(Section):
-    """A gear pair, its torques, and how finely its mesh is resolved."""
+    """A gear pair, its torques, and the resolution of its mesh."""
 
     schema_: Literal["mixedlub-gear/1"] = key("format of the file", example="mixedlub-gear/1", alias="schema")
     title: str = key("title of the figures", "Gear pair", example="FZG C")

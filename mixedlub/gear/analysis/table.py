@@ -1,4 +1,4 @@
-"""Tables of a loaded tooth contact: each column with its unit, its meaning and where its values come from."""
+"""Tables of a loaded tooth contact: columns with unit, meaning and source of their values."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ STIFFNESS = 1e-9
 
 
 def _solved(value: Callable[[ToothContact, Any], Any]) -> Callable[[ToothContact], Any]:
-    """Values that elastic teeth have: a function of the contact and its distribution."""
+    """Values for elastic teeth only: a function of the contact and its distribution."""
     return lambda found: None if found.distribution is None else value(found, found.distribution)
 
 
@@ -159,7 +159,7 @@ TABLES = {
 
 
 def tables(found: ToothContact, iso: Sequence[IsoStiffness]) -> dict[str, pd.DataFrame]:
-    """Every table by the name of its file; the transmission error of elastic teeth alone."""
+    """All tables by file name; the transmission error for elastic teeth only."""
     summary = pd.concat([frame_of(found, _APPROACH), frame_of(iso, _ISO), frame_of(found, _LOADED)], axis=1)
     made = {"summary": summary, "load_share": load_share_table(found), "line_loads": line_load_table(found)}
     if found.distribution is not None:
@@ -178,14 +178,14 @@ def load_share_table(found: ToothContact) -> pd.DataFrame:
 
 
 def line_load_table(found: ToothContact) -> pd.DataFrame:
-    """Line load, pressure and sliding of each slice of one tooth pair on its way through the mesh."""
+    """Line load, pressure and sliding of each slice of one tooth pair along its path."""
     table = frame_of(found, LINE_LOADS, found.force.shape)
     touching = np.broadcast_to(found.on_path | (found.force > 0).any(axis=0), found.force.shape).ravel()
     return table[touching].reset_index(drop=True)
 
 
 def loss_factor_table(found: ToothContact) -> pd.DataFrame:
-    """Closed loss factors, with a word where they do not hold, and the local one of each torque."""
+    """Closed loss factors, marked outside their valid range, and the local loss factor of each torque."""
     with collected():
         closed = loss_factors(found.pair)
     rows = [(factor.name, math.nan, factor.value, factor.outside) for factor in closed]
@@ -194,6 +194,6 @@ def loss_factor_table(found: ToothContact) -> pd.DataFrame:
 
 
 def _pitches(found: ToothContact) -> np.ndarray:
-    """Turn of the mesh at the middles of its phases (base pitches)."""
+    """Rotation of the mesh at the middles of its phases (base pitches)."""
     assert found.distribution is not None
     return (np.arange(found.distribution.approach.shape[1]) + 0.5) / found.conditions.positions

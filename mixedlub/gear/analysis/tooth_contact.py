@@ -1,4 +1,4 @@
-"""The mesh of a gear pair at some torques: what every slice of a tooth pair carries on its way through the mesh."""
+"""The mesh of a gear pair at given torques: load on every slice of a tooth pair along its path."""
 
 from __future__ import annotations
 
@@ -24,16 +24,13 @@ from mixedlub.laws.contact import line_hertz_pressure
 from profiles.errors import InputError
 
 FINE = 64
-"""Slices of oblique lines that no contact problem makes costly: each is on the path as a whole or not at all."""
+"""Slices of oblique lines without a contact problem: each is on the path as a whole or not at all."""
 
 
 @dataclass(frozen=True)
 class MeshConditions:
-    """How finely a mesh is resolved, and what of it leaves the ideal; lengths in m.
-
-    ``positions`` over each base pitch, ``slices`` of the face (None: what the sharing needs); ``pitch_deviation`` of
-    successive tooth pairs.
-    """
+    """Resolution of a mesh and deviations from the ideal; lengths in m. ``positions`` over each base pitch, ``slices``
+    of the face (None: default of the sharing); ``pitch_deviation`` of successive tooth pairs."""
 
     positions: int = 64
     slices: int | None = None
@@ -77,7 +74,7 @@ class ToothContact:
 
     @property
     def load_share(self) -> np.ndarray:
-        """What the tooth pair carries of T1/r_b1 (T, M)."""
+        """Load of the tooth pair over T1/r_b1 (T, M)."""
         return self.force.sum(axis=2) / self.base_force[:, None]
 
     @property
@@ -87,7 +84,7 @@ class ToothContact:
 
     @property
     def on_path(self) -> np.ndarray:
-        """Where a slice lies on the path of contact (M, N)."""
+        """Whether a slice lies on the path of contact (M, N)."""
         rounding = 1e-8 * self.pair.base_pitch
         low, high = self.pair.path_start - rounding, self.pair.path_end + rounding
         return (self.position >= low) & (self.position <= high)
@@ -134,19 +131,19 @@ class ToothContact:
 
     @property
     def pattern(self) -> np.ndarray:
-        """Part of the flank's path and face that carries load (T,)."""
+        """Share of the flank's path and face that carries load (T,)."""
         return (self.force > 0)[:, self.on_path].mean(axis=1)
 
     @property
     def beyond_path(self) -> np.ndarray:
-        """Part of the load that edges of tips carry beyond the path of contact (T,)."""
+        """Share of the load on tip edges beyond the path of contact (T,)."""
         return np.where(self.on_path, 0.0, self.force).sum(axis=(1, 2)) / self.force.sum(axis=(1, 2))
 
 
 def tooth_contact(
     pair: GearPair, sharing: Sharing, torque: np.ndarray, conditions: MeshConditions | None = None
 ) -> ToothContact:
-    """The loaded contact of a pair at torques on the pinion (N m).
+    """Loaded contact of a pair at torques on the pinion (N m).
 
     >>> from mixedlub.gear import RigidSharing
     >>> hong = GearPair((17, 26), 25.4e-3 / 6, math.radians(22.5), 14e-3)
@@ -166,7 +163,7 @@ def tooth_contact(
 
 
 def _elastic(pair: GearPair, sharing: LdpSharing, torque: np.ndarray, conditions: MeshConditions) -> ToothContact:
-    """Of elastic teeth: the passage of the first tooth pair is put together from the contact problems."""
+    """Contact of elastic teeth: passage of the first tooth pair, assembled from the contact problems."""
     solved = transmission_error(
         pair,
         sharing,
@@ -193,7 +190,7 @@ def _elastic(pair: GearPair, sharing: LdpSharing, torque: np.ndarray, conditions
 
 
 def _shared(pair: GearPair, sharing: Sharing, torque: np.ndarray, conditions: MeshConditions) -> ToothContact:
-    """Of a table or rigid teeth: the share of each slice where it is as the pair passes."""
+    """Contact of tabulated or rigid teeth: share of each slice along the passage of the pair."""
     slices = conditions.slices or (sharing.default_slices(pair) if pair.helix_angle == 0 else FINE)
     start, end = mid_face_path(pair)
     step = pair.base_pitch / conditions.positions

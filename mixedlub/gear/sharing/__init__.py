@@ -1,5 +1,3 @@
-"""How the torque is shared between the tooth pairs in contact: one model a file, found by its file.
-
-A sharing says where along the path it has kinks (so that no quadrature panel contains one), what a reader
-should know about it, and the share at the points of a mesh.
-"""
+"""Sharing of the torque between tooth pairs in contact: one model a file, discovered by its file. A sharing gives its
+kinks along the path (so that no quadrature panel contains one), findings for the reader, and the share at the points of
+a mesh."""

@@ -1,4 +1,4 @@
-"""What a load-sharing model is."""
+"""Interface of a load-sharing model."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from mixedlub.schema.section import Section
 
 @dataclass(frozen=True)
 class SharingModel:
-    """A way to share the load between tooth pairs, as a file names it.
+    """A model of the load sharing between tooth pairs, as named in a file.
 
-    ``keys`` are those of ``[gears.load_sharing]`` that it takes, and ``build(section, folder)`` makes the sharing of
-    their values. A model is chosen by ``model = "NAME"``; one that is ``chosen_by`` a key of its own by giving that.
+    ``keys``: its keys of ``[gears.load_sharing]``; ``build(section, folder)`` makes the sharing from their values. A
+    model is chosen by ``model = "NAME"``, or by the presence of its key ``chosen_by``.
     """
 
     name: str

@@ -26,15 +26,15 @@ class RigidSharing:
         return 1 if pair.helix_angle == 0 else 16
 
     def check(self, pair: GearPair) -> tuple[Finding, ...]:
-        """Serves every gear pair."""
+        """No findings: valid for every gear pair."""
         return ()
 
     def breakpoints(self, pair: GearPair) -> np.ndarray:
-        """Where the number of pairs in contact changes."""
+        """Positions where the number of pairs in contact changes."""
         return contact_limits(pair)
 
     def load_share(self, mesh: Mesh, torque: np.ndarray) -> np.ndarray:
-        """Length of each slice's line over the total length, whatever the torque."""
+        """Length of each slice's line over the total length, independent of torque."""
         pair = mesh.pair
         front = mesh.position - mesh.face_position * np.tan(abs(pair.base_helix_angle))
         line = mesh.face_fraction * pair.face_width / np.cos(pair.base_helix_angle)

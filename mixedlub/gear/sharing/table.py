@@ -22,14 +22,14 @@ from mixedlub.schema.toml_file import named_file
 from profiles.errors import InputError
 
 COVERED = 0.98
-"""Share of the path of contact that a table covers but for the rounding of its ends."""
+"""Least share of the path of contact in a table, apart from the rounding of its ends."""
 MEAN_OFF = 0.03
-"""How far the shares of the pairs in contact may on average add up to another number than 1."""
+"""Largest deviation from 1 of the mean sum of the shares of all pairs in contact."""
 GRAVE_IMBALANCE = 0.1
-"""Shares that add up to 1 within that are what gear programs give under tip relief, or round."""
+"""Sums of shares within this distance of 1 occur in gear programs under tip relief, or from rounding."""
 PLACE = "load share table"
 OFTEN, OFTEN_OFF = 0.8, 0.05
-"""So much of a base pitch must add up to 1 within that; beside a step of the share, between two rows, more is off."""
+"""Least part of a base pitch, and distance of its sums from 1; steps of the share between rows are off by more."""
 COLUMNS = (Column("torque_Nm", above=0.0), Column("roll_angle_deg"), Column("load_share", at_least=0.0, at_most=1.5))
 
 
@@ -57,12 +57,12 @@ def _roll_angles(pair: GearPair) -> tuple[float, float]:
 class TableSharing:
     """A tabulated share, from an outside gear program or a measurement.
 
-    One row an entry of the three arrays: pinion ``torque`` (N m), pinion ``roll_angle`` (rad) and the
-    ``share`` of the base-tangent force T1/r_b1 that one tooth pair carries there; of a helical pair, the angle is
-    that at the middle of the face, and the share spreads evenly over the contact line. Used as it stands: linear
-    in roll angle between the rows of a torque; beyond the first and last row their value is held for one row
-    spacing and the share is zero further out. A torque without rows takes the nearest that has some, and
-    reports it (`torque_not_tabulated`). ``source`` is the file that messages name.
+    The entries of three arrays are rows: pinion ``torque`` (N m), pinion ``roll_angle`` (rad) and the ``share`` of the
+    base-tangent force T1/r_b1 on one tooth pair there; for a helical pair, the angle is taken at the middle of the
+    face, and the share spreads evenly over the contact line. Used without correction: linear in roll angle between the
+    rows of a torque; the first and last value hold for one more row spacing, then the share is zero. A torque without
+    rows takes the nearest tabulated torque, with a finding (`torque_not_tabulated`). ``source``: file name for
+    messages.
     """
 
     torque: np.ndarray
@@ -97,36 +97,34 @@ class TableSharing:
                 raise InputError(said, where=self._at_column("roll_angle_deg"), value=twice)
 
     def _at_column(self, name: str) -> str:
-        """The place of a column in a message."""
+        """Place of a column in a message."""
         return f"{self.source}: {name}" if self.source else name
 
     @cached_property
     def _curves(self) -> list[tuple[float, np.ndarray, np.ndarray]]:
-        """One (torque, roll angles, shares) a torque, by rising torque."""
+        """(torque, roll angles, shares) of each torque, in rising order."""
         values, starts = np.unique(self.torque, return_index=True)
         blocks = zip(values, np.split(self.roll_angle, starts[1:]), np.split(self.share, starts[1:]))
         return [(float(value), angle, share) for value, angle, share in blocks]
 
     def default_slices(self, pair: GearPair) -> int:
-        """The table says nothing about the face: one; the oblique lines of helical gears need several."""
+        """One slice, as the table has no data on the face; several for the oblique lines of helical gears."""
         return 1 if pair.helix_angle == 0 else 17
 
     def check(self, pair: GearPair) -> tuple[Finding, ...]:
-        """Refuse tables of another gear or of a part; note ends left out and sums that are not 1."""
+        """Raise an error for tables of another gear or of a part; report missing ends and sums other than 1."""
         curves = range(len(self._curves))
         for curve in curves:
             self._refuse_gap(pair, curve)
         return (*self._short(pair, curves), *self._unbalanced(pair, curves))
 
     def _imbalance(self, pair: GearPair) -> float:
-        """How far the shares of the pairs in contact add up to another number than 1, on average over a base pitch.
-
-        That of the torque where it is largest.
-        """
+        """Largest deviation from 1, over the torques, of the sum of the shares of the pairs in contact, averaged over a
+        base pitch."""
         return max(abs(float(self._sum_over_pairs(pair, curve).mean()) - 1.0) for curve in range(len(self._curves)))
 
     def _refuse_gap(self, pair: GearPair, curve: int) -> None:
-        """Refuse rows that say nothing of any of the pairs in contact at some place: nothing would carry the load."""
+        """Raise an error if rows are missing for all pairs in contact at some place: the load would have no support."""
         value, angle, _ = self._curves[curve]
         position, inside = _pairs_in_contact(pair)
         told = (inside & self._told(curve, position / pair.base_radius[0])).any(axis=1)
@@ -141,7 +139,7 @@ class TableSharing:
         )
 
     def _short(self, pair: GearPair, curves: range) -> Iterator[Finding]:
-        """Rows that end before the path of contact does, of the torque where they are shortest."""
+        """Finding of rows that end before the path of contact, for the torque with the shortest rows."""
         start, end = _roll_angles(pair)
         angles = [angle for _, angle, _ in self._curves]
         covered = [(min(angle[-1], end) - max(angle[0], start)) / (end - start) for angle in angles]
@@ -155,7 +153,7 @@ class TableSharing:
             yield finding("load_share_short", text, PLACE)
 
     def _unbalanced(self, pair: GearPair, curves: range) -> Iterator[Finding]:
-        """Shares that do not add up to the load, of the torque where they are furthest off."""
+        """Finding of shares that do not add up to the load, for the torque with the largest deviation."""
         sums = [self._sum_over_pairs(pair, curve) for curve in curves]
         off = [max(abs(s.mean() - 1.0) / MEAN_OFF, np.quantile(np.abs(s - 1.0), OFTEN) / OFTEN_OFF) for s in sums]
         worst = max(curves, key=lambda curve: off[curve])
@@ -169,12 +167,12 @@ class TableSharing:
             yield finding("load_share_sum", text, PLACE, Severity.DOUBT if grave else None)
 
     def _sum_over_pairs(self, pair: GearPair, curve: int) -> np.ndarray:
-        """Shares of all pairs in contact added up, phase by phase."""
+        """Sum of the shares of all pairs in contact, phase by phase."""
         position, inside = _pairs_in_contact(pair)
         return (self._at(curve, position / pair.base_radius[0]) * inside).sum(axis=1)
 
     def _told(self, curve: int, roll_angle: np.ndarray) -> np.ndarray:
-        """Where the rows of a torque hold: between them, and one row spacing further out."""
+        """Range of the rows of a torque: between them, and one row spacing further out."""
         _, angle, _ = self._curves[curve]
         outside = np.maximum(angle[0] - roll_angle, roll_angle - angle[-1])
         return outside <= np.diff(angle).max()
@@ -184,7 +182,7 @@ class TableSharing:
         return np.where(self._told(curve, roll_angle), np.interp(roll_angle, angle, share), 0.0)
 
     def breakpoints(self, pair: GearPair) -> np.ndarray:
-        """The rows where the slope changes enough to matter, at any torque; slices of helical pairs pass them apart."""
+        """Rows with a significant change of slope, at any torque; for helical pairs, apart for each slice."""
         if pair.helix_angle != 0:
             return contact_limits(pair)
         kinks = []
@@ -195,12 +193,12 @@ class TableSharing:
         return np.concatenate(kinks) * pair.base_radius[0]
 
     def nearest(self, torque: np.ndarray) -> np.ndarray:
-        """Index of the tabulated torque nearest to each torque; the lower one where two are as near."""
+        """Index of the tabulated torque nearest to each torque; the lower of two equally near."""
         tabulated = np.array([value for value, _, _ in self._curves])
         return np.abs(np.asarray(torque)[..., None] - tabulated).argmin(axis=-1)
 
     def load_share(self, mesh: Mesh, torque: np.ndarray) -> np.ndarray:
-        """The table at the roll angles of the mesh, spread evenly over the slices in contact."""
+        """Share of the table at the roll angles of the mesh, spread evenly over the slices in contact."""
         chosen = self.nearest(torque)
         tabulated = np.array([value for value, _, _ in self._curves])
         missing = np.abs(tabulated[chosen] - torque) > 1e-6 * tabulated[chosen]
@@ -217,7 +215,7 @@ class TableSharing:
 
 
 def _along_line(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """Roll angle at the middle of the face while each point touches, and what it is of the slices then in contact."""
+    """Roll angle at the middle of the face while each point touches, and the point's share of the slices in contact."""
     pair = mesh.pair
     tangent = np.tan(abs(pair.base_helix_angle))
     middle = mesh.position - (mesh.face_position - pair.face_width / 2) * tangent
@@ -228,7 +226,7 @@ def _along_line(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _others(affected: Sequence[bool]) -> str:
-    """How many more torques a sentence about one of them holds for.
+    """Number of further torques for which a sentence about one of them holds.
 
     >>> _others([True, True, True]), _others([True, False])
     (' (so at 2 more torques)', '')
@@ -238,7 +236,7 @@ def _others(affected: Sequence[bool]) -> str:
 
 
 def read_sharing(section: Any, folder: Path) -> TableSharing:
-    """The share of the table that a file names."""
+    """Sharing by the table named in a file."""
     file = named_file(folder, section.table, "gears.load_sharing.table")
     table = read_table(file, COLUMNS, key=("torque_Nm", "roll_angle_deg"))
     return TableSharing(
