@@ -1,1 +1,1 @@
-"""Where simulation and recording part, which physics was left out, and how sure that is."""
+"""Diagnosis of the difference between simulation and recording: location, missing physics and probability."""

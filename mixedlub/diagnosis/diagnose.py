@@ -1,4 +1,4 @@
-"""The diagnosis of a case, from folder to answer."""
+"""Diagnosis of a case, from folder to answer."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ from profiles.errors import InputError
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """Everything the answer says, and what it was computed from: ``case`` is the one ``given`` with the noise found."""
+    """Contents of the answer and their inputs; ``case`` is the ``given`` case with the selected noise."""
 
     given: Case
     case: Case
@@ -79,31 +79,31 @@ class Diagnosis:
 
     @property
     def check(self) -> Check | None:
-        """The second channel of the recording against the predicted readings, where there is one."""
+        """Correlation of the recording's second channel with the predicted readings; None without such a channel."""
         name, table = self.case.system.recording.check, self.recorded.table
         return None if name is None or name not in table else check_channel(name, table[name], self.recorded.predicted)
 
     @property
     def counted(self) -> np.ndarray:
-        """Readings that are more probably good than outliers; all of them if there is none."""
+        """Whether each reading is more probably good than an outlier; all readings if none is good."""
         right = self.outlier_chance <= LIKELY
         return right if right.any() else ~right
 
     @property
     def transformed_sd(self) -> np.ndarray:
-        """Standard deviation of the readings as they are compared."""
+        """Standard deviation of the transformed readings."""
         p = self.recorded
         return p.sd / np.abs(p.predicted) if self.case.kind.logarithmic else p.sd
 
     @property
     def residuals(self) -> tuple[np.ndarray, np.ndarray]:
-        """(recorded - simulated)/sd, as they are compared, with the calibrated base model and with the answer."""
+        """(recorded - simulated)/sd of the transformed readings, with the calibrated base model and with the answer."""
         problem, p, sd = self.search.problem, self.recorded, self.transformed_sd
         return (problem.y - problem.transform(p.calibrated)) / sd, (problem.y - problem.transform(p.predicted)) / sd
 
     @property
     def missing(self) -> tuple[np.ndarray, np.ndarray]:
-        """What the base model at the answer's calibration lacks, in the reading's unit: as recorded, as explained."""
+        """Missing part of the base model at the answer's calibration, in the reading's unit: recorded and explained."""
         problem, p = self.search.problem, self.recorded
         base = problem.inverse(problem.transform(p.predicted) - p.mismatch_z * self.transformed_sd)
         return self.readings - base, p.predicted - base
@@ -121,7 +121,7 @@ def diagnose_case(
     level: float = FALSE_ALARM_RATE,
     progress: Progress = lambda text: None,
 ) -> Diagnosis:
-    """Read the case in a folder, and conditions to ``predict`` in place of its own; then as `diagnosis_of`."""
+    """Diagnose the case in a folder; conditions to ``predict`` replace the conditions of the case."""
     case = read_case(folder)
     if predict is None:
         return diagnosis_of(case, case.conditions, exclude, level, progress)
@@ -131,7 +131,7 @@ def diagnose_case(
 
 
 def _refuse_level(level: object) -> None:
-    """Refuse a level of the mismatch test that is no number or beyond those that make sense."""
+    """Raise an error if the level of the mismatch test is not a number within LEVELS."""
     low, high = LEVELS
     if not isinstance(level, Real) or isinstance(level, bool) or not low <= float(level) <= high:
         raise InputError(f"must be a number from {low:g} to {high:g}", where="level", value=level)
@@ -144,7 +144,7 @@ def diagnosis_of(
     level: float = FALSE_ALARM_RATE,
     progress: Progress = lambda text: None,
 ) -> Diagnosis:
-    """Work out what the simulation of a case lacks, and predict the conditions ``asked`` for."""
+    """Diagnose a case and predict the ``requested`` conditions."""
     find(list(exclude), "exclude")
     _refuse_level(level)
     rows = rows_of(case)
@@ -218,7 +218,7 @@ def _cautions(
     predicted: np.ndarray,
     wrong: np.ndarray,
 ) -> list[Finding]:
-    """What speaks against the answer: its odds, what it writes off, ranges and parameters that no law has."""
+    """Doubts about the answer: its odds, outliers, ranges of laws and unpublished parameters."""
     problem = search.problem
     case, rows = problem.case, problem.rows
     read = (case.quantity, f"{case.quantity}_sd", case.system.recording.check)

@@ -1,4 +1,4 @@
-"""Names of columns and explanations as a reader expects them."""
+"""Columns and explanations in words."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def _four(value: float) -> str:
 
 
 def number(value: float) -> str:
-    """A number to three digits, without needless ones.
+    """A number to three digits, or to an integer from 100.
 
     >>> number(0.10412), number(1234.5), number(169.9), number(0.0)
     ('0.104', '1234', '170', '0')
@@ -126,7 +126,7 @@ def enumerated(words: Sequence[str]) -> str:
 
 
 def with_names(words: str, first: bool = True) -> str:
-    """Words with a name in them as it is written, the first letter large where a sentence begins.
+    """Words with capitalised proper names, and a capital first letter at the beginning of a sentence.
 
     >>> with_names("micro-EHL"), with_names("the eyring stress", first=False)
     ('Micro-EHL', 'the Eyring stress')
@@ -136,7 +136,7 @@ def with_names(words: str, first: bool = True) -> str:
 
 
 def in_reach(values: Sequence[float], unit: str, usual: float) -> tuple[tuple[float, ...], str]:
-    """SI numbers as a reader has them: small lengths in µm, temperatures in °C; ``usual`` is the size they have.
+    """SI numbers in customary units: small lengths in µm, temperatures in °C; ``usual`` is a typical size.
 
     >>> in_reach((5.61e-5, 3.4e-5), "m", 4e-5), in_reach((371.15,), "K", 365.0), in_reach((8.0,), "K", 8.0)
     (((56.1, 34.0), 'µm'), ((98.0,), '°C'), ((8.0,), 'K'))

@@ -25,13 +25,13 @@ from mixedlub.schema.table import Table
 class Problem:
     """Readings y with standard deviation sd, and the forward model of their rows.
 
-    Kinds that span decades are transformed: ``y``, ``sd`` and every prediction are then those of ln(reading), and
-    ``inverse`` gives readings back.
+    Kinds that span decades are transformed: ``y``, ``sd`` and every prediction then refer to ln(reading), and
+    ``inverse`` returns readings.
 
     Every unknown has a standard-normal prior: calibration and effect parameters through their priors' ``value``, errors
-    shared within a set-up as columns of ``setups`` (in units of sd), and the ``correlated_error``. ``fixed`` are
-    values of effect parameters that are not free. Where readings are autocorrelated, ``n_per_effective`` of them count
-    as one, and ``sd`` is that of a reading times the root of this number.
+    shared within a set-up as columns of ``setups`` (in units of sd), and the ``correlated_error``. ``fixed`` are values
+    of effect parameters that are not free. ``n_per_effective`` autocorrelated readings count as one, and ``sd`` is the
+    noise of a reading times the root of this number.
     """
 
     case: Case
@@ -52,7 +52,7 @@ class Problem:
         n_per_effective: float = 1.0,
         correlated_error: CorrelatedError = UNCORRELATED,
     ) -> Problem:
-        """The problem of a recording whose noise is known; with its ``forward`` model if that was built before."""
+        """Problem of a recording with known noise; ``forward`` is its model if built before."""
         rows, y = rows_of(case), readings_of(case)
         forward = Forward(case, rows) if forward is None else forward
         sd, setups = transformed_noise(case, rows, y, forward.predict())
@@ -69,7 +69,7 @@ class Problem:
 
     @cached_property
     def shared(self) -> np.ndarray:
-        """Columns, in units of sd, of all errors that readings share."""
+        """Columns, in units of sd, of all errors shared by readings."""
         return np.hstack([self.setups, self.correlated_error.columns(self.rows) / np.sqrt(self.n_per_effective)])
 
     @property
@@ -87,7 +87,7 @@ class Problem:
         return replace(self, sd=times * self.sd, setups=self.setups / times, n_per_effective=n_per_effective)
 
     def transform(self, reading: np.ndarray) -> np.ndarray:
-        """Transformed readings, which are compared."""
+        """Readings in the transformed scale of the comparison."""
         return np.log(np.maximum(reading, SMALLEST_READING)) if self.case.kind.logarithmic else reading
 
     def inverse(self, transformed: np.ndarray) -> np.ndarray:
@@ -100,11 +100,11 @@ class Problem:
 
     @property
     def calibration_size(self) -> int:
-        """How many inputs calibration may move."""
+        """Number of calibrated inputs."""
         return len(self.forward.calibrations)
 
     def effects(self, explanation: Explanation) -> list[Effect]:
-        """The effects an explanation names, with the parameters that are unknown here."""
+        """Effects of an explanation, with their free parameters."""
         if explanation not in self._effects:
             known = known_in(self.case.kind.name)
             every = (known[name] for name in explanation.effects)
@@ -120,12 +120,12 @@ class Problem:
         return self.calibration_size + sum(len(e.parameters) for e in self.effects(explanation))
 
     def calibration(self, z: np.ndarray, without: Collection[str] = ()) -> dict[str, float]:
-        """Calibration values at coordinates z, without the uncertainty of base laws in place of which others act."""
+        """Calibration values at coordinates z, except corrections to base laws replaced by the effects ``without``."""
         free = zip(self.forward.calibrations, z[: self.calibration_size], strict=True)
         return {c.name: c.parameter.prior.value(float(x)) for c, x in free if c.base_law not in without}
 
     def own_coordinates(self, explanation: Explanation, z: np.ndarray) -> dict[str, np.ndarray]:
-        """The coordinates of each effect of an explanation."""
+        """Coordinates of each effect of an explanation."""
         values, start = {}, self.calibration_size
         for e in self.effects(explanation):
             stop = start + len(e.parameters)
@@ -139,7 +139,7 @@ class Problem:
         return {e.id: e.values(own[e.id]) for e in self.effects(explanation)}
 
     def run(self, explanation: Explanation, z: np.ndarray, near: Run | None = None) -> Run:
-        """Predicted readings at coordinates z, with the steps that lead there."""
+        """Predicted readings at coordinates z, with the steps of the chain."""
         return self._run(self.calibration(z), self.parameters(explanation, z), near)
 
     def _run(self, calibration: Mapping[str, float], parameters: Parameters, near: Run | None) -> Run:
@@ -151,7 +151,7 @@ class Problem:
         return self.run(explanation, z).prediction
 
     def base(self, z: np.ndarray) -> np.ndarray:
-        """Predicted readings at the same calibration with nothing added."""
+        """Predicted readings of the base model at the calibration in coordinates z."""
         return self.transform(self.forward.predict(self.calibration(z)))
 
     def jacobian(
@@ -162,10 +162,10 @@ class Problem:
         near: np.ndarray | None = None,
         corrections: bool = False,
     ) -> np.ndarray:
-        """Derivative of predictions over sd with respect to z, by differences to the side where laws do not end.
+        """Derivative of predictions over sd with respect to z, by one-sided differences within the range of the laws.
 
-        Where there is a derivative ``near`` by, columns of small corrections to base laws are taken from it, as they
-        hardly change; if ``corrections``, all others are.
+        With a derivative ``near`` by, its columns of small corrections to base laws are reused, as they hardly change;
+        with ``corrections``, all other columns are.
         """
         here = self.run(explanation, z) if at is None else at
         calibration, parameters = self.calibration(z), self.parameters(explanation, z)

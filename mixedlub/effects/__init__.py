@@ -1,4 +1,4 @@
-"""The catalogue of effects: one per module, with those of installed plug-ins."""
+"""The catalogue of effects: one per module, and the effects of installed plug-ins."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from profiles.errors import InputError, nearest
 
 
 def catalogue() -> Mapping[str, Effect]:
-    """All effects by id: those of this package and plug-ins of the entry point ``mixedlub.effects``."""
+    """All effects by id: this package and plug-ins of the entry point ``mixedlub.effects``."""
     return EFFECTS.all
 
 
@@ -60,10 +60,10 @@ class Known:
 def known_effects(
     section: Mapping[str, Mapping[str, float | str]], kind: str, chain: Chain, given: Sequence[str], want: str
 ) -> Known:
-    """The effects of a section ``[effects]`` in a chain; what is left out is as its published law has it.
+    """The effects of a section ``[effects]`` in a chain; omitted parameters have the values of a published law.
 
-    ``law`` names a published law that the effect contains and fixes the parameters which this law has; without it the
-    first one holds. NAME_sd is the standard deviation of the parameter NAME.
+    ``law`` names a published law in the effect and fixes its parameters; the default is the first law. NAME_sd is the
+    standard deviation of the parameter NAME.
     """
     own = known_in(kind)
     effects = tuple(own[e.id] for e in find(sorted(section), "effects"))
@@ -112,7 +112,7 @@ def _refuse_second_law(effects: Sequence[Effect]) -> None:
 
 
 def _of_law(e: Effect, law: float | str | None) -> dict[str, float]:
-    """Parameters that a published law fixes, of those that are free."""
+    """Free parameters that a published law fixes."""
     if law is None:
         return {}
     if law not in e.special_cases:

@@ -86,12 +86,12 @@ def asperity_law(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Elastic asperities touch over another area than Greenwood and Williamson's theory gives.
 
-    Theories differ in which heights count, those of summits or of the whole surface, in the plane from which the
-    separation is measured, and in the number of contacts and how it goes with the bandwidth of the spectrum. For Nayak
-    numbers of 3 to 30 and films of up to 2.5 times the roughness the area of two like surfaces by Greenwood and Tripp,
-    and that by Bush, Gibson and Thomas, is within 1.5 % of such a change, and that of Persson's theory, at Greenwood
-    and Williamson's pressure, within 2.5 %. Areas below 0.02 count as 0.02 in this. Asperities that
-    yield are `asperity_plasticity`.
+    Theories differ in the counted heights, of summits or of the whole surface, in the plane from which the separation
+    is measured, and in the number of contacts and how it goes with the bandwidth of the spectrum. For Nayak numbers of
+    3 to 30 and films of up to 2.5 times the roughness such a change reproduces the area of two like surfaces by
+    Greenwood and Tripp, and the area by Bush, Gibson and Thomas, within 1.5 %, and the area of Persson's theory, at
+    Greenwood and Williamson's pressure, within 2.5 %. Areas below 0.02 count as 0.02 in this. Asperities that yield are
+    `asperity_plasticity`.
 
     >>> law = dict(density=1.0, nayak_exponent=0.5, heights=1.0, offset=0.5, each=1.0)
     >>> changed = asperity_law(4.4106e10, 0.48970e-6, 0.13298e-6, 0.49422e-6, 0.5, 0.5, **law)

@@ -45,7 +45,7 @@ def direction_dependence(
     asymmetry: float,
     viscous_asymmetry: float,
 ) -> np.ndarray:
-    """The two directions of a drive differ in friction; the viscous part may have an asymmetry of its own.
+    """The two directions of a drive differ in friction; the viscous part may have a different asymmetry.
 
     >>> alike = dict(asymmetry=0.1, viscous_asymmetry=0.0)
     >>> direction_dependence(np.array([2.0, -2.0]), 1.0, np.array([1.0, -1.0]), 1.0, **alike).round(9).tolist()

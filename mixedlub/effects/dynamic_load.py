@@ -8,7 +8,7 @@ from mixedlub.chain.priors import LogNormal, Normal, Uniform
 TYPICAL_FORCE = 3000.0
 """Tooth force (N) at which the amplitude is stated."""
 LEAST_LOAD = 0.1
-"""Load over the typical one below which the relative added force stays as it is."""
+"""Load over the typical load, below which the relative added force is constant."""
 LEAST_LOAD_FACTOR = 0.05
 """Smallest share of the static force where vibration unloads the teeth: laws of contact need some load."""
 
@@ -108,7 +108,7 @@ def dynamic_load(
     """Near mesh resonance the force on the teeth differs from their share of the static force.
 
     The force on the springs of the teeth is a wave over the mesh cycle, the same for all contacts at one time, so that
-    most of it averages out: what is left depends on where the teeth slide most. The wave shifts by half a cycle across
+    most of it averages out: the remainder depends on where the teeth slide most. The wave shifts by half a cycle across
     the resonance. The second mesh harmonic excites the resonance at half the speed. A dynamic factor instead is the
     amplitude at any time (k = m = 1); bearings and uneven faces have the static force even then. Far below resonance
     the amplitude grows with the square of speed where the transmission error drives it (p = 2), in proportion in ISO

@@ -7,11 +7,11 @@ from mixedlub.chain.priors import LogNormal, Normal, Uniform
 from mixedlub.laws.film import DOWSON_TOYODA, RIVALS, Regression, dowson_toyoda, moes
 
 MIDDLE = {"speed": 1e-11, "material": 4e3, "load": 1e-4}
-"""Definition. Groups U, G and W about which the exponents turn: those of a gear contact."""
+"""Definition. Groups U, G and W about which the exponents turn: values of a gear contact."""
 
 
 def _against_base(law: Regression) -> dict[str, float]:
-    """A regression of line contacts over that of the base model."""
+    """A regression of line contacts over the regression of the base model."""
     base = DOWSON_TOYODA
     turned = [group ** (getattr(law, name) - getattr(base, name)) for name, group in MIDDLE.items()]
     return {
@@ -96,12 +96,12 @@ def film_law(
     material_exponent: float,
     regimes: float,
 ) -> np.ndarray:
-    """The film of a line contact follows another regression than the base law, with its own constant and exponents.
+    """The film of a line contact follows another regression than the base law, with other constant and exponents.
 
-    Published regressions are powers of speed, load and material. They differ by up to a quarter in size, by 0.04 in
-    the exponent of speed, by 0.07 in that of the load and by 0.17 in that of the material, which one oil changes with
-    its temperature. Moes joins the regimes of rigid and elastic bodies, which is no power. Minimum and central film are
-    laws of one kind here, as studies take either for the separation.
+    Published regressions are powers of speed, load and material. They differ by up to a quarter in size, by 0.04 in the
+    exponent of speed, by 0.07 of load and by 0.17 of material; an oil changes the material group with its temperature.
+    Moes joins the regimes of rigid and elastic bodies, which is not a power law. Minimum and central film are laws of
+    one kind here, as studies take either for the separation.
 
     >>> case = (0.2214, 2.1630, 0.01489, 214.86e3, 8.3262e-3, 14.81e-9, 226.374e9)   # um, by Dowson and Toyoda
     >>> round(float(film_law(*case, **_against_base(RIVALS["Dowson and Higginson"]))), 3)   # by themselves 0.1671

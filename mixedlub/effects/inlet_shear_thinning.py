@@ -71,7 +71,7 @@ def inlet_shear_thinning(
     onset: float,
     sliding: float,
 ) -> np.ndarray:
-    """Polymers align in the inlet and the oil shear-thins; the film is thinner than that of a Newtonian oil.
+    """Polymers align in the inlet and the oil shear-thins; the film is thinner than with a Newtonian oil.
 
     Agrees with an inlet solution within 10 % for N up to 1.6 and 16 % for N = 31 at n = 0.75; use for n above 0.6. A
     polymer-containing oil has a second Newtonian plateau mu_2/mu_1 and keeps at least (mu_2/mu_1)^0.69 of its film;

@@ -36,7 +36,7 @@ def load_dependent_friction(
     """Loaded flanks and bearings add dry friction, proportional to load by Coulomb's law.
 
     Terms relative to dry friction, such as the excess at low speed, grow with it. The exponent is 1.5 for rolling
-    bearings that load themselves and below 1 for films, whose friction grows more slowly than load.
+    bearings that load themselves and below 1 for films, because their friction grows more slowly than load.
 
     >>> round(float(load_dependent_friction(2.0, 0.5, growth=0.2, power=1.0)), 9)
     2.2

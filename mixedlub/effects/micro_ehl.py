@@ -78,11 +78,11 @@ def micro_ehl(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Film pressure flattens long-wavelength roughness inside the contact.
 
-    Each surface has waves of its own length, 2 pi (m0/m2)^(1/2): one wave in the source, at ``spread`` 0. At 1 its
-    wavelengths are lognormal, as wide as its Nayak number m0 m4/m2^2 says: long waves, which make the heights, flatten
-    more than short ones, which make slopes and curvatures. W follows from the Hertz pressure, 2 pi (p0/E')^2, as
-    for a line contact. Published forms differ in whether inlet viscosity enters; the reference viscosity 0.01 Pa s for
-    those without makes the form belong to Pa s. Derived for pure rolling and transverse roughness.
+    The wavelength of each surface is 2 pi (m0/m2)^(1/2): one wave in the source, at ``spread`` 0. At 1 its wavelengths
+    are lognormal, as wide as its Nayak number m0 m4/m2^2 says: long waves, which make the heights, flatten more than
+    short ones, which make slopes and curvatures. W follows from the Hertz pressure, 2 pi (p0/E')^2, as for a line
+    contact. Published forms differ in whether inlet viscosity enters; the reference viscosity 0.01 Pa s for those
+    without makes the form belong to Pa s. Derived for pure rolling and transverse roughness.
 
     >>> here = dict(hertz_half_width=0.18e-3, hertz_pressure=0.9642e9, radius=8.3262e-3, reduced_modulus=226.374e9)
     >>> oil = dict(viscosity=0.01489, entrainment_speed=2.163, pressure_viscosity=14.81e-9)

@@ -54,7 +54,7 @@ def misalignment(
     load that is linear along the face. Friction power per length is proportional to w^(1+m): m is 0.17 for the loss of
     the standard gear, less for a friction coefficient independent of load, more where asperity contact begins. The load
     share of a gear program often includes misalignment already. Stiffness and w_r make the form belong to Pa and N/m. A
-    relief of 1 is that of elastic teeth; at 0 the contact width is independent of load.
+    relief of 1 holds for elastic teeth; at 0 the contact width is independent of load.
 
     >>> load = misalignment(2e5, 2000.0, 0.02, misalignment=10e-6, relief=1.0, loss_power=0.5)   # x = 1: 8/2.5^2
     >>> round(float(load) / 2e5, 3)

@@ -76,8 +76,8 @@ def mixture_law(
     """Film and asperity friction count by the load that each carries, or by the film over the roughness.
 
     Asperities carry a larger share of the load than of the area, as their pressure is above the mean. Other weights are
-    fits over the film over the roughness; most fall as an exponential of a power of it near 1, some as a power of
-    what is left to the film at which nothing touches. The roughness is the composite one or the mean of both surfaces.
+    fits over the ratio of film to roughness; most fall as an exponential of a power of it near 1, some as a power of
+    the distance to the film at which nothing touches. The roughness is composite or the mean of both surfaces.
 
     >>> state = (0.0363, 0.0236, 0.1, 0.1662, 0.91, 0.3e-6, 0.3e-6, 0.5)
     >>> form = {"rate": 1.8, "power": 1.2, "mean_roughness": 0.0, "end": 0.0}

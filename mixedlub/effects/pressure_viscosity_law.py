@@ -150,7 +150,7 @@ def pressure_viscosity_law(
     coefficient in the film law holds at inlet pressures, up to about 0.1 GPa: the slope in the contact may differ, and
     neither need be linear between the temperatures at which the coefficient was measured. The temperature dependence of
     the slope is an interpolation of this catalogue. Both curvatures change exponentially with 1/T. Viscosity is limited
-    to that of a glass. The glass's 1e8 Pa s, 9.67 and p_r make the form belong to Pa s and Pa.
+    to the viscosity of a glass. The glass's 1e8 Pa s, 9.67 and p_r make the form belong to Pa s and Pa.
 
     >>> rest = dict(down_with_temperature=0.0, up_with_temperature=0.0, bend_up=0.0, exponent=0.53135)
     >>> rest |= dict(slope=1.0, onset=0.15e9, slope_with_temperature=0.0, slope_bow=0.0)
@@ -180,5 +180,5 @@ def pressure_viscosity_law(
 
 
 def _below(log: np.ndarray, solid: np.ndarray) -> np.ndarray:
-    """Logarithm of viscosity with a smooth upper limit at that of a glass."""
+    """Logarithm of viscosity with a smooth upper limit at the viscosity of a glass."""
     return log / (1.0 + (log / solid) ** 8) ** 0.125

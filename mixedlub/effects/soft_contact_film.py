@@ -1,4 +1,4 @@
-"""Film of a soft point contact, whose pressure does not thicken the oil."""
+"""Film of a soft point contact with too low a pressure to thicken the oil."""
 
 import numpy as np
 

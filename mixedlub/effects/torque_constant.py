@@ -1,4 +1,4 @@
-"""A motor torque constant that differs from the one its controller assumes."""
+"""A motor torque constant different from the value assumed by the controller."""
 
 import numpy as np
 

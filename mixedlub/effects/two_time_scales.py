@@ -59,7 +59,7 @@ def two_time_scales(
     lasting_time: float,
     gathering: float,
 ) -> np.ndarray:
-    """A film forms and fades quickly while the track wears slowly; each changes friction by its own share.
+    """A film forms and fades quickly while the track wears slowly; each changes friction by a separate share.
 
     >>> fast, slow = dict(passing=0.1, passing_time=0.02), dict(lasting=-0.3, lasting_time=0.5, gathering=1.0)
     >>> two_time_scales(0.1, np.array([0.02, 9.0]), **fast, **slow).round(3).tolist()

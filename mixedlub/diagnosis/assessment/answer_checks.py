@@ -1,4 +1,4 @@
-"""What speaks against an answer as a whole, and what the readings show of their noise."""
+"""Doubts about an answer as a whole, and findings on the noise of the readings."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from mixedlub.schema.units import unit_of
 
 
 def noise_notes(search: Search, stated: bool, inflation: NoiseInflation) -> list[Finding]:
-    """What the readings show of their noise, where that is not what the recording states."""
+    """Findings on the noise of the readings, if it differs from the stated noise."""
     n_per_effective = search.problem.n_per_effective
     text = (
         f"residuals are autocorrelated: about {n_per_effective:.2g} consecutive readings carry the information of one"
@@ -105,9 +105,9 @@ def answer_warnings(
     wrong: np.ndarray,
     at_one_place: bool = False,
 ) -> list[Finding]:
-    """What speaks against the answer as a whole: many outliers, or levels that it does not predict.
+    """Doubts about the answer as a whole: many outliers, or levels that it does not predict.
 
-    A mismatch ``at_one_place`` is not one that other levels could predict.
+    Other levels cannot predict a mismatch ``at_one_place``.
     """
     warnings = []
     if wrong.mean() > MANY_OUTLIERS:
@@ -150,7 +150,7 @@ def answer_warnings(
 
 
 def overdispersion_warning(judged: Posterior) -> list[Finding]:
-    """That probabilities were made less extreme, where left-out levels are overdispersed."""
+    """Warning of lowered odds between effects if left-out levels are overdispersed."""
     if judged.overdispersion < OVERDISPERSION_REPORTED:
         return []
     times = np.sqrt(judged.overdispersion)
@@ -162,7 +162,7 @@ def overdispersion_warning(judged: Posterior) -> list[Finding]:
 
 
 def outlier_streak(rows: Table, wrong: np.ndarray, residual: np.ndarray) -> list[int]:
-    """Runs of the longest streak in time of wrong readings on one side, if chance would hardly make one.
+    """Runs of the longest streak in time of wrong readings on one side, if improbable by chance.
 
     >>> table = Table({"run": np.arange(1, 41), "time_s": np.arange(40.0)})
     >>> wrong = np.isin(np.arange(40), [0, 1, 2, 17])
@@ -186,9 +186,9 @@ def outlier_streak(rows: Table, wrong: np.ndarray, residual: np.ndarray) -> list
 
 
 def outlier_levels(rows: Table, wrong: np.ndarray, residual: np.ndarray) -> list[tuple[str, str]]:
-    """Levels nearly all of whose readings are wrong on one side, if chance would hardly make one, and how many are.
+    """Levels with nearly all readings wrong on one side, if improbable by chance, and the share of wrong readings.
 
-    None where all levels are like that.
+    Empty if most readings of the recording are wrong.
     """
     if wrong.mean() >= MOST_OF_LEVEL:
         return []
@@ -208,12 +208,12 @@ def outlier_levels(rows: Table, wrong: np.ndarray, residual: np.ndarray) -> list
 
 
 def _conditions(rows: Table) -> list[tuple[str, np.ndarray]]:
-    """What was set, not what passes by."""
+    """Conditions that were set, without passing quantities such as time."""
     return [(name, values) for name, values in rows.columns.items() if name not in (*PASSING, "run")]
 
 
 def _one_level(rows: Table, streak: np.ndarray) -> bool:
-    """Whether a streak is a level of a condition that was run in one go: no matter of time."""
+    """Whether a streak is a level of a condition run in one go, so that time is not the cause."""
     for _, values in _conditions(rows):
         at_level = values == values[streak[0]]
         if at_level[streak].all() and not at_level.all() and streak.size >= MOST_OF_LEVEL * at_level.sum():

@@ -1,4 +1,4 @@
-"""Correlation of the predictions with a second channel that was not fitted."""
+"""Correlation of the predictions with an unfitted second channel."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from mixedlub.diagnosis.settings.assessment import CHANNEL_READINGS
 
 @dataclass(frozen=True)
 class Check:
-    """Correlation of the predicted readings with the channel ``column`` over ``n`` readings; none where it is still."""
+    """Correlation of the predicted readings with channel ``column`` over ``n`` readings; None if constant or short."""
 
     column: str
     correlation: float | None
@@ -19,9 +19,9 @@ class Check:
 
 
 def check_channel(column: str, channel: np.ndarray, predicted: np.ndarray) -> Check:
-    """Pearson's correlation of predictions with a channel that was never fitted.
+    """Pearson's correlation of predictions with an unfitted channel.
 
-    A channel that does not move, or has fewer than five readings, has no correlation: it may be out of use.
+    A constant channel, or fewer than five readings, has no correlation: the channel may be out of use.
 
     >>> check_channel("coverage", np.array([0.0, 1.0, 2.0, 3.0, 5.0]), np.array([1.0, 2.0, 3.0, 4.0, 6.0])).correlation
     1.0

@@ -1,7 +1,7 @@
 """Cross-validation by level: refit the verdict without each level and predict it.
 
-The verdict, the outliers, the noise and the form of a discrepancy are those of all readings; only parameters are
-refitted. Laws are used as published, without the error of form that predictions have.
+Verdict, outliers, noise and form of a discrepancy are taken from all readings; only parameters are refitted. Laws are
+used as published, without the error of form of predictions.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ from mixedlub.recording.set_points import set_points
 class HeldOut:
     """Rms of (recorded - predicted)/sd on left-out levels, with calibration alone and with the verdict.
 
-    ``standardised_rms`` is that of the verdict with the prediction variance added to the noise. ``score`` is the log
-    probability of the readings under both, ``score_before`` that with calibration alone.
+    ``standardised_rms`` is the rms of the verdict with the prediction variance added to the noise, ``score`` the log
+    probability of the readings under this sum, ``score_before`` the log probability with calibration alone.
     """
 
     before: float
@@ -50,7 +50,7 @@ class HeldOut:
     score_before: float
 
     def single_reading_units(self, n_per_effective: float) -> HeldOut:
-        """The same in standard deviations of a single reading, where several count as one."""
+        """The same errors in standard deviations of a single reading."""
         times = float(np.sqrt(n_per_effective))
         return replace(self, before=times * self.before, after=times * self.after)
 
@@ -70,9 +70,9 @@ class HeldOut:
     def log_odds_penalty(self, rms: float) -> float:
         """Penalty in log odds of effects that leave much of the mismatch on left-out levels.
 
-        A law in a slightly wrong form still explains most of it there. Effects that fit all readings but fail there are
-        another law in disguise. ``rms`` is that of the residuals with all readings fitted. Two standard errors of its
-        square are allowed for chance, and prediction variance is not counted as failure.
+        A law in a slightly wrong form still explains most of it. Effects that fit all readings but fail there stand in
+        for another law. ``rms`` is the rms residual of the fit to all readings. Two standard errors of its square are
+        allowed for chance, and prediction variance is not counted as failure.
 
         >>> well, badly = (HeldOut(3.0, rms, "", 5, 200, rms, 0.0, 0.0) for rms in (1.1, 2.6))
         >>> well.log_odds_penalty(1.0), badly.log_odds_penalty(1.0) > 5.0
@@ -95,7 +95,7 @@ class HeldOut:
 
 @dataclass(frozen=True, eq=False)
 class _Fold:
-    """One fold: rows left out, the problems of the other rows and of these, and the noise of these."""
+    """A fold: left-out rows, the problems of the other and of the left-out rows, and the noise of the left-out rows."""
 
     out: np.ndarray
     train: Problem
@@ -105,7 +105,7 @@ class _Fold:
 
 @dataclass(frozen=True, eq=False)
 class LevelsOut:
-    """The folds of one condition, and the prediction of each by calibration alone."""
+    """Folds of a condition, with residuals under calibration alone."""
 
     search: Search
     used: np.ndarray
@@ -113,7 +113,7 @@ class LevelsOut:
     folds: tuple[_Fold, ...]
     before: np.ndarray
     refitted: dict[Explanation, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
-    """Residuals and prediction variance of the explanations that were tried."""
+    """Residuals and prediction variance of the explanations tried so far."""
 
     @classmethod
     def of(cls, search: Search) -> LevelsOut:
@@ -133,7 +133,7 @@ class LevelsOut:
         return cls(screened, used, name, tuple(folds), before)
 
     def held(self, verdict: Explanation, outliers: np.ndarray) -> HeldOut:
-        """How an explanation predicts each level without it."""
+        """Cross-validation of an explanation over all levels."""
         outliers = outliers[self.used]
         if verdict not in self.refitted:
             self.refitted[verdict] = self._refit(verdict)
@@ -181,24 +181,24 @@ class LevelsOut:
 
 
 def _open_variance(columns: np.ndarray, weight: np.ndarray, slopes: np.ndarray) -> np.ndarray:
-    """Prediction variance, in units of the noise, of predictions with these slopes after a fit to other readings.
+    """Prediction variance, in units of the noise, after a fit to other readings.
 
-    ``columns`` are the slopes of that fit; ``slopes`` has the first of them.
+    ``columns`` are the slopes of the fit, ``slopes`` the slopes of the predictions for its first coordinates.
     """
     covariances = covariance(columns, weight)[: slopes.shape[1], : slopes.shape[1]]
     return np.asarray(np.einsum("ij,jk,ik->i", slopes, covariances, slopes))
 
 
 def _discrepancy_columns(search: Search) -> list[np.ndarray]:
-    """Columns of the discrepancy; of a peak or a step, at all candidate places."""
+    """Columns of the discrepancy; for a peak or a step, at all candidate places."""
     shapes = search.discrepancy.best.at_other_places(search.space, search.values)
     return [shape.columns(search.space, search.values, search.discrepancy.scalings) for shape in shapes]
 
 
 def _discrepancy_residuals(search: Search, forms: list[np.ndarray], out: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Residuals of left-out readings under the discrepancy fitted to the others (linearised), and prediction variance.
+    """Residuals and prediction variance of left-out readings under the discrepancy fitted to the others (linearised).
 
-    The other readings also decide between its ``forms``.
+    The other readings also weight its ``forms``.
     """
     problem, base = search.problem, search.discrepancy.base
     log, residuals, variance = [], [], []
@@ -218,7 +218,7 @@ def _discrepancy_residuals(search: Search, forms: list[np.ndarray], out: np.ndar
 def _folds(search: Search) -> tuple[str, np.ndarray]:
     """The condition with most levels, and the level of every reading.
 
-    Conditions of a narrow span come last, because a noisy constant has levels too; of equal ones the widest is taken.
+    Conditions of a narrow span come last, because a noisy constant has levels too; ties go to the widest.
     """
     best: tuple[bool, int, float, str, np.ndarray] | None = None
     for axis, values in zip(search.space.axes, search.values, strict=True):

@@ -1,4 +1,4 @@
-"""Experiment design: the conditions whose reading would separate the remaining explanations best."""
+"""Experiment design: conditions of the reading that best separates the remaining explanations."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from mixedlub.schema.table import Column, Table
 
 @dataclass(frozen=True)
 class NextTest:
-    """Conditions to run, the explanations they separate, and the information expected."""
+    """Conditions to run, explanations they separate, and expected information."""
 
     conditions: dict[str, float | str]
     separates: tuple[str, ...]
@@ -45,7 +45,7 @@ class NextTest:
 def next_tests(
     search: Search, judged: Posterior, refined: dict[Explanation, Refined], columns: list[Column], varied: list[str]
 ) -> tuple[NextTest, ...]:
-    """The tests with most expected information; with one explanation left, against the runner-up."""
+    """Tests with the most expected information; with one explanation left, against the runner-up."""
     keys = [k for k in refined if judged.weights[k] > WORTH_TESTING]
     if len(keys) < 2:
         runner = next((k for k in judged.weights if k not in keys and k in search.fits), None)
@@ -88,10 +88,10 @@ def candidates(
     limits: Mapping[str, tuple[float, float]] | None = None,
     varied: Collection[str] | None = None,
 ) -> Table:
-    """A grid over the recorded levels and a little beyond them, thinned to a few hundred conditions.
+    """Grid over the recorded levels and a little beyond, thinned to a few hundred conditions.
 
-    It keeps within the bounds of the columns, and within the ``limits`` of the rig. Conditions that are not ``varied``
-    (none given: all are) stay where they were, and those that only jitter at their set-point.
+    It stays within the bounds of the columns and the ``limits`` of the rig. Conditions that jitter at a set point, or
+    are not among ``varied`` (if given), keep their value.
 
     >>> share = Column("slide_roll_ratio", at_least=0.0, at_most=2.0)
     >>> candidates(Table({"slide_roll_ratio": np.array([0.5, 1.9])}, ""), [share])["slide_roll_ratio"].round(9).tolist()

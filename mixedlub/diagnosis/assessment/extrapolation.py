@@ -1,4 +1,4 @@
-"""Conditions that lie beyond those recorded, where a prediction extrapolates."""
+"""Extrapolation: conditions to predict beyond the recorded conditions."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from mixedlub.schema.table import Column, Table
 
 
 def beyond_recorded(case: Case, wanted: Table | None) -> list[Finding]:
-    """The wanted runs that lie beyond the recorded conditions, each with what is beyond."""
+    """Finding on the wanted runs beyond the recorded conditions."""
     rows = case.recordings
     if wanted is None or rows is None:
         return []
@@ -35,7 +35,7 @@ def beyond_recorded(case: Case, wanted: Table | None) -> list[Finding]:
 
 
 def _beyond(column: Column, wanted: Table, rows: Table) -> Iterator[tuple[int, str]]:
-    """Runs whose value of a column is beyond the recorded ones, with the words for it."""
+    """Runs with a value of a column beyond the recorded values, with a description."""
     name, values = column.name, wanted[column.name]
     if column.dtype == "name":
         for i in np.flatnonzero(~np.isin(values, rows[name])):

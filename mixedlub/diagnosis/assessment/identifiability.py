@@ -1,4 +1,4 @@
-"""Identifiability: which effects have nearly the same signature at the recorded conditions after calibration."""
+"""Identifiability: effects with nearly the same signature at the recorded conditions after calibration."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from mixedlub.diagnosis.settings.inference import STRONG_EVIDENCE
 class Confusion:
     """Cosines between the signatures of the effects, and their visibility.
 
-    ``cosine`` has shape (effects, effects): 1 means that these readings cannot separate two effects, -1 that one is the
-    other with the opposite sign. ``visibility`` is the median size of an effect in standard deviations after
-    calibration; ``absorbed`` is the share that calibration takes.
+    ``cosine`` has shape (effects, effects): 1 means that these readings cannot separate two effects, -1 that they
+    cannot separate an effect from the negative of another. ``visibility`` is the median size of an effect in standard
+    deviations after calibration; ``absorbed`` is the share removed by calibration.
     """
 
     ids: tuple[str, ...]
@@ -36,8 +36,8 @@ class Confusion:
 def confusion(search: Search) -> Confusion:
     """Compare the effects' signatures at the recorded conditions under the base model's fit.
 
-    A signature is the change of the readings in sigmas, as fitted where the recording asks for the effect,
-    otherwise at the draw nearest the middle of its prior.
+    A signature is the change of the readings in sigmas: as fitted if there is strong evidence for the effect, otherwise
+    at the draw nearest the middle of its prior.
     """
     search = search.full_screen
     null_fit = search.null_fit

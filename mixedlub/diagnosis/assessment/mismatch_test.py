@@ -1,4 +1,4 @@
-"""Test of the calibrated base model against nothing missing, at a stated false-alarm rate."""
+"""Test of the hypothesis that nothing is missing, at a stated false-alarm rate."""
 
 from __future__ import annotations
 
@@ -55,9 +55,10 @@ def judged_weight(search: Search) -> np.ndarray:
 class _Alternatives:
     """Alternatives under the linearised base model: prior draws of effects, and smooth functions.
 
-    All under ``scale`` times the noise of the search. ``covered`` multiplies by the inverse covariance of noise and
-    calibration, and ``spread`` is the log of its determinant. ``whitened_draws`` are the draws so multiplied, ``power``
-    their squared sizes; ``smooth`` has the squared sizes of each block of functions and their directions.
+    The noise is ``scale`` times the noise of the search. ``covered`` multiplies by the inverse covariance of noise and
+    calibration, and ``spread`` is the log determinant of the covariance. ``whitened_draws`` are the draws so
+    multiplied, ``power`` their squared sizes; ``smooth`` has the squared sizes of each block of functions and their
+    directions.
     """
 
     scale: float
@@ -89,12 +90,12 @@ class _Alternatives:
         )
 
     def log_nothing(self, targets: np.ndarray) -> np.ndarray:
-        """Log density of each row of targets if nothing is missing, up to a constant that no scale changes."""
+        """Log density of each row of targets if nothing is missing, up to a constant independent of the scale."""
         targets = targets / self.scale
         return np.asarray(-0.5 * (np.einsum("ij,ij->i", targets, self.covered(targets)) + self.spread))
 
     def log_bayes_factor(self, targets: np.ndarray) -> np.ndarray:
-        """Log mean Bayes factor against none of each row of targets."""
+        """Log mean Bayes factor of each row of targets against nothing missing."""
         targets = targets / self.scale
         parts = []
         if len(self.whitened_draws):
@@ -178,7 +179,7 @@ def mismatch_against_null(result: NoiseSearch, level: float) -> tuple[Search, Mi
 
 
 def beyond_noise(search: Search, times: float, test: Mismatch) -> Mismatch:
-    """The test where residuals exceed any plausible inflation of the stated noise."""
+    """Mismatch test that counts scatter beyond any plausible inflation of the stated noise as a mismatch."""
     from scipy.special import chdtrc
 
     if times <= MOST_INFLATION:

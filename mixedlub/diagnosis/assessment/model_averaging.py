@@ -31,7 +31,7 @@ class Predicted:
 
 
 def leaders(search: Search, judged: Posterior) -> dict[Explanation, Refined]:
-    """The most probable explanations, refined; nothing missing is always among them."""
+    """Refined fits of the most probable explanations, always including nothing missing."""
     leaders = [k for k, w in judged.weights.items() if w >= NEGLIGIBLE and not k.is_discrepancy][:MOST_AVERAGED]
     if NOTHING not in leaders:
         leaders.append(NOTHING)

@@ -48,7 +48,7 @@ class Posterior:
 
 
 def prior_of_untestable(search: Search) -> dict[str, float]:
-    """Probability of the effects that change no reading: their prior."""
+    """Prior probability of the effects that change no reading."""
     looked = (*search.draws, *search.untestable)
     odds = PriorOdds.of(s.id for s in looked)
     return {s.id: odds.chance(s.id) for s in search.untestable}

@@ -45,7 +45,7 @@ SLOTS = (
 
 @dataclass(frozen=True)
 class Absorbed:
-    """How well a smooth free factor on one quantity of the chain explains the mismatch (log evidence over none)."""
+    """Log evidence, over none, of a smooth free factor on a quantity of the chain."""
 
     stage: str
     quantity: str
@@ -56,10 +56,10 @@ class Absorbed:
 class Law:
     """A power law of the mismatch: coefficient times the product of (quantity over its middle) to exponents.
 
-    ``relative`` laws are a share of the calibrated base model's reading, others have its unit. ``shape`` is the
-    product (times the base model's reading where relative) for each reading, ``observed`` what the recording
-    has beyond the base model at the law's calibration; their ratio is the coefficient but for noise. Errors on
-    levels left out are in sigmas of a single reading. ``odd`` laws turn their sign with the direction of motion.
+    ``relative`` laws are a share of the calibrated base model's reading; others have the unit of the reading. ``shape``
+    is the product (times the base model's reading where relative) for each reading, ``observed`` the recorded readings
+    less the base model at the law's calibration; their ratio is the coefficient except for noise. Errors on levels left
+    out are in sigmas of a single reading. ``odd`` laws turn their sign with the direction of motion.
     """
 
     factors: tuple[tuple[str, Fraction], ...]
@@ -94,20 +94,20 @@ class Law:
 
 @dataclass(frozen=True)
 class DescribedDiscrepancy:
-    """The stages that absorb the mismatch at all, best first, and the power law, if one holds on levels left out."""
+    """Stages that can absorb the mismatch, best first, and the power law if one holds on left-out levels."""
 
     stages: tuple[Absorbed, ...]
     law: Law | None
 
 
 def describe_discrepancy(search: Search) -> DescribedDiscrepancy:
-    """Describe a mismatch for which the catalogue has no name."""
+    """Describe a mismatch without a name in the catalogue."""
     stages = tuple(stage for stage in absorbing_stages(search) if stage.evidence > 0.0)
     return DescribedDiscrepancy(stages, power_law(search))
 
 
 def absorbing_stages(search: Search) -> tuple[Absorbed, ...]:
-    """Weigh a smooth free factor on one quantity a stage, linearised at the calibrated base model."""
+    """Weigh a smooth free factor on one quantity per stage, linearised at the calibrated base model."""
     problem, base = search.problem, search.discrepancy.base
     fixed, weight = np.hstack([base.slopes, problem.shared]), search.discrepancy.fit.weight
     plain = linear_fit(base.anchor, fixed, weight).evidence
@@ -130,7 +130,7 @@ def absorbing_stages(search: Search) -> tuple[Absorbed, ...]:
 
 
 def features(search: Search) -> dict[str, np.ndarray]:
-    """Positive quantities that vary over the recording, one number a reading; look-alikes of earlier ones left out."""
+    """Positive quantities that vary over the recording, one value per reading, without collinear quantities."""
     case, rows, forward = search.problem.case, search.problem.rows, search.problem.forward
     candidates: dict[str, np.ndarray] = {}
     for column in case.kind.columns:
@@ -164,7 +164,7 @@ def _standard(values: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True, eq=False)
 class _Search:
-    """Everything a power law is weighed with: logarithms of the features, the linearised base, the target."""
+    """Inputs of the search for a power law: logarithms of the features, linearised base, target."""
 
     names: tuple[str, ...]
     logs: np.ndarray
@@ -179,7 +179,7 @@ class _Search:
         )
 
     def columns(self, powers: np.ndarray, carrier: np.ndarray) -> np.ndarray:
-        """One column in sigmas a form: product of powers, times one of the carriers; shape (forms, rows)."""
+        """Column of each form, in sigmas: product of powers times a carrier; shape (forms, rows)."""
         return self.share.T[carrier] * np.exp(np.clip(powers @ self.logs.T, -LARGEST_LOG_FORM, LARGEST_LOG_FORM))
 
     def evidence(self, powers: np.ndarray, carrier: np.ndarray) -> np.ndarray:
@@ -201,7 +201,7 @@ class _Search:
         return log_evidence
 
     def best(self) -> tuple[float, np.ndarray, int]:
-        """The form with the highest posterior, and its carrier: two factors at once, a third added to the leaders."""
+        """Form with the highest posterior, and its carrier: all forms up to two factors, the leaders with a third."""
         count = len(self.names)
         leaders: list[tuple[float, np.ndarray, int]] = []
         for size in range(3):
@@ -220,7 +220,7 @@ class _Search:
         return max(leaders, key=lambda item: item[0])
 
     def _weigh(self, powers: np.ndarray, size: int) -> list[tuple[float, np.ndarray, int]]:
-        """Forms of a size with their log posterior; every further factor halves the prior of the whole size."""
+        """Leading forms of a size with their log posterior; every further factor halves the prior of the whole size."""
         if not len(powers):
             return []
         count = self.share.shape[1]
@@ -254,10 +254,10 @@ def _with(powers: np.ndarray, place: int, b: Fraction) -> np.ndarray:
 
 
 def power_law(search: Search) -> Law | None:
-    """The shortest power law that predicts whole levels it was not fitted to; None where there is none.
+    """Shortest power law that predicts left-out levels; None if no law does.
 
-    The law is chosen anew in every fold; it must lower the held-out error clearly over all folds, and in most
-    of the conditions whose levels are left out in turn.
+    The law is chosen anew in every fold; it must lower the held-out error clearly over all folds, and in most of the
+    conditions.
     """
     values = features(search)
     if not values:
@@ -303,7 +303,7 @@ def power_law(search: Search) -> Law | None:
 
 
 def _turning(search: Search) -> list[np.ndarray]:
-    """The direction of motion of every reading as a sign, where both were run."""
+    """Direction of motion of every reading as a sign; empty if only one direction was run."""
     speed = search.problem.forward.inputs.get("drive_speed")
     if speed is None or np.ptp(np.sign(speed)) == 0.0:
         return []
@@ -311,7 +311,7 @@ def _turning(search: Search) -> list[np.ndarray]:
 
 
 def _coefficient(search: _Search, column: np.ndarray) -> tuple[float, float, np.ndarray]:
-    """Coefficient of a column, its sd and all coefficients, the prior of the coefficient wide open."""
+    """Coefficient of a column under a wide prior, its sd, and all coefficients."""
     scale = READING_SIZES[-1] / np.sqrt(np.mean(column**2))
     columns = np.column_stack([search.fixed, column * scale])
     fit = linear_fit(search.target, columns, search.weight)
@@ -322,7 +322,7 @@ def _coefficient(search: _Search, column: np.ndarray) -> tuple[float, float, np.
 
 
 def _held_out(search: Search, thinned: _Search, thin: np.ndarray) -> tuple[float, float, bool]:
-    """Rms error in sigmas on levels left out, without a law and with one chosen on the others; do most splits win."""
+    """Rms error (sigmas) on left-out levels, without and with a law chosen on the others; whether most splits win."""
     squares: list[tuple[float, float]] = []
     for axis, values in zip(search.space.axes, search.values, strict=True):
         levels, label = np.unique(values[thin], return_inverse=True)
@@ -353,7 +353,7 @@ def _words(name: str) -> str:
 
 
 def _middle(name: str, value: float) -> str:
-    """The middle of a quantity with its unit, as the law is written."""
+    """Middle of a quantity with its unit, as printed in the law."""
     unit = unit_of(name) if unit_of(name) else GLOSSARY[name].unit if name in GLOSSARY else "-"
     if unit == "Pa":
         return f"{number(value * 1e-9)} GPa"

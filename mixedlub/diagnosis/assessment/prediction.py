@@ -1,4 +1,4 @@
-"""Predictions of an explanation at recorded or new conditions, with what its parameters leave uncertain."""
+"""Predictions of an explanation at recorded or new conditions, with parameter uncertainty."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class Refined:
 
 
 def refine(search: Search, fit: Fit) -> Refined:
-    """Fit the error of form, and the coordinates with it."""
+    """Fit the error of form together with the coordinates."""
     problem = search.problem
     at_change_points, sloping = change_point_coordinates(problem, fit.explanation), fit
     fit = replace(fit, slopes=drop_columns(fit.slopes, at_change_points))
@@ -123,7 +123,7 @@ class NewRows:
         )
 
     def noise_at(self, transformed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Noise of a reading at a transformed prediction, and the variance of the error that it shares with others."""
+        """Noise of a reading at a transformed prediction, and the variance of its error shared with others."""
         single, setups = _noise_at(self.search.problem, self.table, transformed)
         return single, setups + correlated_error_variance(self.search) * single**2
 
@@ -149,7 +149,7 @@ class NewRows:
         return Prediction(mean + gain, variance + variances[0], base, variances[1:] - variances[0])
 
     def of_discrepancy(self) -> Prediction:
-        """Prediction of its base plus the discrepancy, which vanishes far from the recorded conditions."""
+        """Prediction of the base fit plus the discrepancy, which vanishes far from the recorded conditions."""
         search = self.search
         discrepancy, base = search.discrepancy, search.discrepancy.base
         run = self.problem.run(base.explanation, discrepancy.z)
@@ -165,7 +165,7 @@ class NewRows:
         return Prediction(mean, variance * self.problem.sd**2, calibrated)
 
     def _phase_variance(self) -> np.ndarray:
-        """Variance of a wave where its phase is unknown, in units of the noise."""
+        """Variance of a wave due to its unknown phase, in units of the noise."""
         discrepancy, rows = self.search.discrepancy, self.problem.rows
         if not discrepancy.best.waves:
             return np.zeros(len(rows))
@@ -176,7 +176,7 @@ class NewRows:
 
 
 def _noise_at(problem: Problem, table: Table, transformed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Noise of a new reading at a transformed prediction, and the variance of its set-up's error."""
+    """Noise of a new reading at a transformed prediction, and the variance of the error of its set-up."""
     sd_column = f"{problem.case.quantity}_sd"
     level = problem.inverse(transformed)
     if sd_column in problem.rows and sd_column not in table:

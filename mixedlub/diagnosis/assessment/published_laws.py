@@ -1,4 +1,4 @@
-"""Published laws that an effect of the answer becomes at certain parameters: whether the readings allow them."""
+"""Published laws that are special cases of the answer's effects, weighed by the readings."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from mixedlub.diagnosis.settings.assessment import LAW_OPEN, LAW_REJECTED
 
 @dataclass(frozen=True)
 class Contained:
-    """A published law and its log odds against the effect that contains it with all parameters free."""
+    """A published law and its log odds against the effect with all parameters free."""
 
     effect: str
     law: str
@@ -21,7 +21,7 @@ class Contained:
 
     @property
     def text(self) -> str:
-        """What the readings say of the law.
+        """Sentence on the agreement of the law with the readings.
 
         >>> print(Contained("inlet_shear_heating", "Gupta", -0.9).text)
         Its special case "Gupta" fits about as well (odds 1 : 2.5).
@@ -46,7 +46,7 @@ class Contained:
 
 
 def contained(search: Search, verdict: Explanation) -> tuple[Contained, ...]:
-    """Weigh the published laws that a verdict's effects contain, each with the rest of the verdict fitted again."""
+    """Weigh the published laws in a verdict's effects, each with the rest of the verdict refitted."""
     if not verdict.effects:
         return ()
     return tuple(Contained(*law) for law in published_odds(search.problem, search.fits[verdict]))

@@ -1,4 +1,4 @@
-"""Whether the laws of an answer were used within the range that their sources cover."""
+"""Use of an answer's laws within the range of their sources."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from mixedlub.schema.findings import Finding, finding
 
 
 def beyond_range(problem: Problem, explanation: Explanation, z: np.ndarray) -> tuple[Finding, ...]:
-    """A finding for each effect of a fit that is used outside the range it was made for."""
+    """Findings on the effects of a fit that are used outside their valid range."""
     judged = judge_rows(problem.forward, problem.parameters(explanation, z), problem.calibration(z))
     own = [(limit, values) for limit, values in judged.reached if limit.code.partition(":")[2] in explanation.effects]
     return findings(own, problem.y.shape, "readings", lambda code: effect_words(code.partition(":")[2]))
 
 
 def unpublished(effects: Sequence[Effect], z: np.ndarray, spread: np.ndarray) -> list[Finding]:
-    """A finding for each parameter outside the published laws of its effect; a doubt where its interval is as well.
+    """Findings on parameters outside the published laws of their effect; a doubt if the 90 % interval is outside too.
 
     ``z`` and ``spread`` are the coordinates of the effects' parameters and their standard deviations.
     """

@@ -16,11 +16,10 @@ from mixedlub.diagnosis.settings.inference import LIKELY
 
 
 def judge(search: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
-    """Posterior probabilities, with cross-validation of the verdict and of all that ties with it.
+    """Posterior probabilities, with cross-validation of the verdict and of all tied explanations.
 
-    When VALIDATED were tried, the others get the least penalty among those. The discrepancy is compared with the first
-    effects. Where even the best of those tried is overdispersed on left-out levels, the odds between effects are
-    reduced.
+    Beyond VALIDATED explanations, the others get the least penalty of these. The discrepancy is compared with the first
+    effects. If even the best of them is overdispersed on left-out levels, the odds between effects are reduced.
     """
     levels = LevelsOut.of(search)
     weights = search.log_weights

@@ -1,1 +1,1 @@
-"""Model discrepancy: what no effect of the catalogue explains, as a flexible function of the conditions."""
+"""Model discrepancy: a flexible function of the conditions for a mismatch without an effect in the catalogue."""

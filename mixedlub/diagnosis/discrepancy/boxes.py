@@ -1,4 +1,4 @@
-"""Discrepancy within a box: a shift where two or more conditions lie within a range each."""
+"""Discrepancy within a box: a shift within ranges of two or more conditions."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ def clearest_box(
 ) -> tuple[Box, float] | None:
     """The box with the largest log likelihood gain, and the log of the number of equivalent boxes.
 
-    ``residual`` is standardised, ``scale`` multiplies the discrepancy there. A box of one condition is a step or
-    a peak, and none is of so few readings that they may be outliers.
+    ``residual`` is standardised, ``scale`` multiplies the discrepancy. Excluded are boxes of one condition, which are
+    steps or peaks, and boxes of so few readings that they may be outliers.
     """
     grid = _Grid.of(space, values)
     if len(grid.names) < 2:

@@ -25,10 +25,7 @@ DERIVED, TURNED = "composite_roughness_um", "position_deg"
 
 @dataclass(frozen=True)
 class Place:
-    """Value of a condition at which a local form lies; ``width`` is that of a peak as a share of the range.
-
-    A step has width zero.
-    """
+    """Position of a local form: a condition, a value, and the width of a peak as a share of the range (step: zero)."""
 
     name: str
     at: float
@@ -38,7 +35,7 @@ class Place:
 def candidate_places(space: Coordinates, values: list[np.ndarray], timeless: bool) -> list[Place]:
     """Peaks and steps that a recording could show; no steps in time if ``timeless``.
 
-    Forms in time that coincide with consecutive levels of a condition are left to that condition.
+    Forms in time that coincide with consecutive levels of a condition are attributed to the condition.
     """
     found: list[Place] = []
     for i, axis in enumerate(space.axes):
@@ -66,7 +63,7 @@ def candidate_places(space: Coordinates, values: list[np.ndarray], timeless: boo
 
 
 def levels_of(space: Coordinates, values: list[np.ndarray], axis: int) -> np.ndarray:
-    """Set points of a condition; absolute values where it has both signs."""
+    """Set points of a condition; absolute values if it has both signs."""
     points = set_points(values[axis])
     return np.unique(np.abs(points) if space.axes[axis].symmetric_log else points)
 
@@ -81,14 +78,14 @@ def edges(levels: np.ndarray) -> np.ndarray:
 
 
 def thinned(candidate_places: np.ndarray) -> np.ndarray:
-    """An even subset where there are very many places."""
+    """Even subset of at most MOST_PLACES places."""
     if candidate_places.size <= MOST_PLACES:
         return candidate_places
     return candidate_places[np.linspace(0, candidate_places.size - 1, MOST_PLACES).round().astype(int)]
 
 
 def finer(space: Coordinates, values: list[np.ndarray], axis: int, at: float, width: float) -> np.ndarray:
-    """Places between the two neighbours of one of the thinned places."""
+    """Places between the neighbours of a thinned place."""
     levels = levels_of(space, values, axis)
     every = levels if width else edges(levels)
     few = thinned(every)

@@ -24,7 +24,7 @@ from mixedlub.recording.conditions import Coordinates
 class Discrepancy:
     """Evidence of the discrepancy, averaged over its forms, and the fit of its best form.
 
-    It adds to the model of ``base``: nothing missing, or other laws of the base chain. ``scalings`` are those of the
+    It adds to the model of ``base``: nothing missing, or other laws of the base chain. ``scalings`` refer to the
     recording, in units of its ``typical`` sizes.
     """
 
@@ -43,8 +43,8 @@ def fit_discrepancy(
 ) -> Discrepancy:
     """Marginal likelihood of a fitted model plus a discrepancy, averaged over its forms.
 
-    Forms that are effects among ``names`` are left out. Each family of forms decides on outliers by its own best form:
-    a smooth form would take the crests of a wave, or the readings of a peak, for outliers.
+    Forms that are effects among ``names`` are left out. Each family of forms decides on outliers by its best form: a
+    smooth form would take the crests of a wave, or the readings of a peak, for outliers.
     """
     target = base.anchor
     fixed = np.hstack([base.slopes, problem.shared])
@@ -138,7 +138,7 @@ def _boxes(
 
 
 def _mean_over_shapes(tried: dict[DiscrepancyForm, float]) -> float:
-    """Log mean evidence: half the prior on forms of the reading, half on those within the chain, if there are any.
+    """Log mean evidence: half the prior on forms of the reading, half on forms within the chain, if any.
 
     Within each half every kind of form (of all conditions, of one, of two, waves, local) has the same prior.
     """

@@ -1,4 +1,4 @@
-"""What a discrepancy scales with: the reading, nothing (additive), or one quantity of the chain (a free factor)."""
+"""Scaling of a discrepancy: relative to the reading, additive, or a free factor on a quantity of the chain."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ READING, ADDITIVE = "reading", "addition"
 THERMAL_LAG = "late_temperature"
 """Change of the readings at the temperature of the step before: its form is a constant."""
 TEMPERATURES = ("oil_temperature_C", "temperature_C")
-"""Columns of the temperature that may lag."""
+"""Columns of a temperature that may lag."""
 QUANTITIES = ("film_thickness", "shear_stress", "area_ratio", "boundary_friction", "line_load", "running_friction")
 
 Scalings = Mapping[str, np.ndarray]
@@ -50,7 +50,7 @@ def scalings_of(problem: Problem, base: Run, typical: TypicalSizes) -> dict[str,
 
 
 def scaling_of(problem: Problem, base: Run, typical: TypicalSizes, name: str) -> np.ndarray:
-    """One of the scalings; zero where the reading does not depend on it or is not finite."""
+    """A single scaling; zero if the reading does not depend on it or is not finite."""
     if name == ADDITIVE:
         return typical.sd / problem.sd
     if name == THERMAL_LAG:
@@ -62,7 +62,7 @@ def scaling_of(problem: Problem, base: Run, typical: TypicalSizes, name: str) ->
 
 
 def thermal_lag(problem: Problem, base: Run) -> np.ndarray:
-    """Change of the readings if the oil temperature lagged by one median time step; zero where no order is known.
+    """Change of the readings if the oil temperature lagged by one median time step; zero without a known order.
 
     The temperature before a row is taken from the recording, also for rows of other tables. After a pause the step is a
     small part of the change since.
@@ -95,7 +95,7 @@ def _share(problem: Problem, base: Run) -> np.ndarray:
 def log_slope(problem: Problem, base: Run, name: str) -> np.ndarray | None:
     """Derivative of the transformed readings with respect to the logarithm of a quantity of the chain.
 
-    ``base`` is a run of the base model. None where the chain lacks the quantity.
+    ``base`` is a run of the base model. None if the chain lacks the quantity.
     """
     forward, inputs = problem.forward, base.inputs
     if name not in forward.inputs and name not in {step for step, _ in forward.chain}:

@@ -48,7 +48,7 @@ def first_look(target: np.ndarray, fixed: np.ndarray) -> np.ndarray:
 
 
 def _directions(columns: np.ndarray, whole: np.ndarray) -> np.ndarray:
-    """Orthonormal basis of columns without those that are dependent, relative to the ``whole``."""
+    """Orthonormal basis of columns, without columns that are dependent relative to the ``whole``."""
     size = np.linalg.norm(whole, axis=0)
     kept = np.linalg.norm(columns, axis=0) > DEPENDENT * np.maximum(size, 1e-300)
     return np.linalg.qr(columns[:, kept])[0]

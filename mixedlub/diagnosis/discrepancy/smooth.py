@@ -27,12 +27,12 @@ LOCAL = (READING, ADDITIVE, "running_friction")
 EVENT, MISCOUNT = "friction_event", "fringe_order"
 """Effects that are a step in time, and an additive step of film thickness."""
 REDUNDANT = {"surfaces", "composite_roughness_um"}
-"""Conditions of which the second is a function of the first, so that their product adds nothing."""
+"""Two conditions, one a function of the other: their product adds nothing."""
 
 
 @dataclass(frozen=True)
 class DiscrepancyForm:
-    """One form of the discrepancy: its axes, correlation length, size, and the quantity it scales with.
+    """A form of the discrepancy: axes, correlation length, size, and modulated quantity.
 
     No axes mean all of them. A wave has ``waves`` periods along its axis. A peak or a step lies ``at`` a value of its
     axis, and ``length`` is the width of the peak. A ``box`` is a range of each of its axes.
@@ -74,11 +74,11 @@ class DiscrepancyForm:
 
     @property
     def sizes(self) -> tuple[float, ...]:
-        """Sizes that are tried."""
+        """Candidate sizes."""
         return READING_SIZES if self.modulates in (READING, ADDITIVE) else LOG_FACTOR_SIZES
 
     def near(self, space: Coordinates, values: list[np.ndarray]) -> list[DiscrepancyForm]:
-        """Forms between those of its family: waves of any period, peaks and steps at any level."""
+        """Forms between the forms of its family: waves of any period, peaks and steps at any level."""
         if self.at is not None:
             between = finer(space, values, space.place(self.axes[0]), self.at, self.length)
             return [replace(self, at=float(at)) for at in between]
@@ -102,7 +102,7 @@ def most_flexible(space: Coordinates) -> DiscrepancyForm:
 def candidate_forms(
     space: Coordinates, values: list[np.ndarray], scalings_of: Scalings, names: Collection[str]
 ) -> list[list[DiscrepancyForm]]:
-    """All forms that are tried, of size one, by family, without those that are effects among ``names``."""
+    """Candidate forms of size one, by family, without forms that are effects among ``names``."""
     waves = [DiscrepancyForm((CLOCK,), 0.0, 1.0, READING, False, waves=float(w)) for w in frequencies(space, values)]
     local = [
         DiscrepancyForm((place.name,), place.width, 1.0, carrier, False, at=place.at)

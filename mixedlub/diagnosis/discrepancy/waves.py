@@ -1,4 +1,4 @@
-"""Waves in time that are tried as a discrepancy."""
+"""Waves in time as forms of a discrepancy."""
 
 from __future__ import annotations
 
@@ -18,9 +18,10 @@ CLOCK, TURNED = "time_s", "position_deg"
 
 
 def frequencies(space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
-    """Numbers of periods over the recording, up to the Nyquist limit; none where there is no clock.
+    """Numbers of periods over the recording, up to the Nyquist limit; empty without a clock.
 
-    None where a shaft turns, whose position is an effect, or where a condition is cycled at the same rate.
+    Excluded are recordings of a turning shaft, because its position is an effect, and rates at which a condition is
+    cycled.
     """
     names = [axis.name for axis in space.axes]
     if CLOCK not in names or TURNED in names:
@@ -48,7 +49,7 @@ def stepped_levels(values: list[np.ndarray], index: int) -> list[np.ndarray]:
 
 
 def is_explained_by(columns: np.ndarray, label: np.ndarray, share: float = WAVE_CONFOUNDED) -> bool:
-    """Whether the levels of a condition explain that share of any column's variance."""
+    """Whether the levels of a condition explain more than a ``share`` of any column's variance."""
     centred = columns - columns.mean(axis=0)
     count = np.bincount(label)
     means = np.column_stack([np.bincount(label, weights=c) / np.maximum(count, 1) for c in centred.T])

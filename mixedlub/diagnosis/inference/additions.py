@@ -1,4 +1,4 @@
-"""Which explanations with one more effect are fitted, and the starting values of these fits."""
+"""Selection of explanations with one more effect, and starting values of their fits."""
 
 from __future__ import annotations
 

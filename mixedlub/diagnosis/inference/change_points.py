@@ -1,4 +1,4 @@
-"""Change points, integrated numerically over their range: the slope at one place is no guide to the others."""
+"""Numerical integration over change points: the slope at one place does not predict other places."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def profile_change_point(
     """Profile of the log density over one change point: coordinates (m, size) in rising order, and m log densities.
 
     Places are denser where the density is steep; ``further`` are added. The other coordinates keep their values, or
-    ``follow`` in proportion where that is more probable. The ``extra_columns`` are fitted at each place.
+    ``follow`` in proportion if more probable. The ``extra_columns`` are fitted at each place.
     """
     alone = np.eye(fit.z.size)[index]
     directions = [alone] if follow is None else [alone, follow]
@@ -174,8 +174,8 @@ def average_over_change_points(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Change of predictions ``here``, at coordinates z, by averaging over change points, and variances (3, n) of it.
 
-    A prediction before and after a change is bimodal. The second and third variance are therefore those with which a
-    normal 90 % interval ends at the lower and upper quantile.
+    A prediction before and after a change is bimodal. The second and third variance therefore make a normal 90 %
+    interval end at the lower and upper quantile.
     """
     gain, variances = np.zeros(here.size), np.zeros((3, here.size))
     for p in posteriors:

@@ -1,4 +1,4 @@
-"""Starting values for the fits of one effect: draws of its prior, and a scan where there are many maxima."""
+"""Starting values for the fits of one effect: draws of its prior, and a scan if there are many maxima."""
 
 from __future__ import annotations
 

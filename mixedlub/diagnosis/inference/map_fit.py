@@ -114,7 +114,7 @@ def linear_fit(
 
 
 def covariance(columns: np.ndarray, weight: np.ndarray) -> np.ndarray:
-    """Of coordinates with standard-normal priors and these columns (slopes in sigmas), at the weights of the readings.
+    """Covariance of coordinates with standard-normal priors and these columns (slopes in sigmas), at given weights.
 
     >>> covariance(np.ones((3, 1)), np.ones(3)).tolist()
     [[0.25]]
@@ -152,8 +152,8 @@ def map_fit(
     """Gauss-Newton with damping to the most probable coordinates, then Laplace's evidence.
 
     Unless the start is ``warm``, a robust (Huber) prefit comes first, because far from the solution every reading looks
-    like an outlier. The first step is made with ``slopes`` of a fit near by where there are any. A fit that must stay
-    ``hopeless`` behind the evidence of a ``rival`` is given up.
+    like an outlier. The first step uses ``slopes`` of a nearby fit if given. A fit that must stay ``hopeless`` behind
+    the evidence of a ``rival`` is given up.
     """
     state = _initial_state(problem, explanation, start, slopes)
     state = state if warm else _robust_prefit(problem, explanation, state)
@@ -283,7 +283,7 @@ class _State:
     cost: float
     weight: np.ndarray
     exact: bool = True
-    """Whether the slopes are those at these coordinates."""
+    """Whether the slopes were computed at these coordinates."""
 
 
 def _gauss_newton(
@@ -298,7 +298,7 @@ def _gauss_newton(
 ) -> _State:
     """Damped Gauss-Newton steps until the gain is below the tolerance, or the fit is hopelessly behind its rival.
 
-    Every second derivative is only corrected along the step; the last step, and the result, have a whole one.
+    Every second Jacobian is only corrected along the step; the last step and the result have a full Jacobian.
     """
     z, shared, run, slopes = state.z, state.shared, state.run, state.slopes
     cost, weight = _cost(problem, run.prediction, z, shared, likelihood)
@@ -342,7 +342,7 @@ def _gauss_newton(
 
 
 def _secant(slopes: np.ndarray, step: np.ndarray, change: np.ndarray) -> np.ndarray:
-    """Derivative corrected along the last step, by Broyden's update, so that it has the change of that step."""
+    """Jacobian after Broyden's update, which reproduces the change of the last step."""
     return slopes + np.outer(change - slopes @ step, step) / float(step @ step)
 
 

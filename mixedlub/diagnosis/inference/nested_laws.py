@@ -33,7 +33,7 @@ def published_odds(
 
 
 def _nested_fit(nested: Problem, free: Fit, drop: list[int], worst: float, tolerance: float) -> Fit:
-    """Fit the rest of an explanation again; also from a distant start where the near one has more outliers."""
+    """Fit the rest of an explanation again, also from a distant start if the near start has more outliers."""
     start, slopes = np.delete(free.z, drop), np.delete(free.slopes, drop, axis=1)
     fit = map_fit(
         nested,

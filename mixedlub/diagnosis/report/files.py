@@ -22,9 +22,9 @@ from mixedlub.schema.toml_file import to_toml
 
 XML = '<?xml version="1.0" encoding="utf-8" standalone="no"?>\n'
 WRITTEN = ("diagnosis.json", "predictions.csv", "report.txt", "report.html")
-"""Files that every answer has."""
+"""Files of every answer."""
 AS_USED = "case/system.toml"
-"""The file of the answer that keeps the system as it was used."""
+"""File of the answer with the system as used."""
 
 
 def diagnose(
@@ -35,11 +35,11 @@ def diagnose(
     level: float = FALSE_ALARM_RATE,
     progress: Progress = lambda text: None,
 ) -> Diagnosis:
-    """Work out what the simulation of a case lacks and write the answer into ``out``.
+    """Diagnose a case and write the answer into ``out``.
 
     The files are diagnosis.json, predictions.csv, report.txt, report.html, figures/, the system as used in case/, the
-    case of the improved model in improved/, and origin.json, which names the case. They replace those of an earlier
-    answer once all are written. The same case gives the same bytes.
+    case of the improved model in improved/, and origin.json, which names the case. They replace an earlier answer once
+    all are written. The same case gives the same bytes.
     """
     origin = case_origin(case_folder)
     diagnosis = diagnose_case(case_folder, predict, exclude, level, progress)
@@ -49,18 +49,18 @@ def diagnose(
 
 
 def case_origin(folder: Path) -> Origin:
-    """A case as the origin of an answer."""
+    """Origin of an answer: the files of its case."""
     return origin_of(folder, ("system.toml", "recordings.csv"))
 
 
 def files(d: Diagnosis) -> dict[str, str | bytes]:
-    """The contents of all files of the answer, by file name."""
+    """Contents of all files of the answer, by file name."""
     extra = described(d)
     return {**texts(d, extra), **drawings(d, extra)}
 
 
 def texts(d: Diagnosis, extra: DescribedDiscrepancy | None) -> dict[str, str | bytes]:
-    """The contents of the files that need no drawing."""
+    """Contents of the text and table files, by file name."""
     return {
         "diagnosis.json": json.dumps({**as_json(d), **_discrepancy_record(extra)}, indent=1, ensure_ascii=False) + "\n",
         "predictions.csv": predictions(d).to_csv(index=False, float_format="%.9g", lineterminator="\n"),
@@ -71,7 +71,7 @@ def texts(d: Diagnosis, extra: DescribedDiscrepancy | None) -> dict[str, str | b
 
 
 def drawings(d: Diagnosis, extra: DescribedDiscrepancy | None) -> dict[str, str | bytes]:
-    """The contents of the page and of the figures."""
+    """Contents of the HTML page and the figures, by file name."""
     from mixedlub.diagnosis.report import html
     from mixedlub.diagnosis.report.figures import figures
     from mixedlub.diagnosis.report.figures.style import as_drawn
@@ -92,7 +92,7 @@ def _text(d: Diagnosis, parts: Sequence[words.Section]) -> str:
 
 
 def described(d: Diagnosis) -> DescribedDiscrepancy | None:
-    """The model discrepancy in more detail, where it is among the tied explanations."""
+    """Detailed model discrepancy if it is among the tied explanations, else None."""
     return describe_discrepancy(d.search) if DISCREPANCY in d.posterior.tied else None
 
 
@@ -122,7 +122,7 @@ def _discrepancy_record(extra: DescribedDiscrepancy | None) -> dict[str, Any]:
 
 
 def write(contents: Mapping[str, str | bytes], out: Path, origin: Origin | None = None) -> None:
-    """Write all files of an answer, and where it has an origin its record, in place of those of an earlier one."""
+    """Write all files of an answer, and the record of its origin if given, in place of an earlier answer."""
     out.mkdir(parents=True, exist_ok=True)
     with writing(out) as aside:
         fill(contents, aside)
@@ -132,7 +132,7 @@ def write(contents: Mapping[str, str | bytes], out: Path, origin: Origin | None 
 
 
 def drop_earlier(contents: Mapping[str, str | bytes], folder: Path) -> None:
-    """Remove what an earlier answer wrote of an improved model and this one does not."""
+    """Remove files of the improved model that only an earlier answer wrote."""
     for name in FILES:
         if f"{folder.name}/{name}" not in contents:
             (folder / name).unlink(missing_ok=True)

@@ -74,7 +74,7 @@ CAPTIONS = {
 }
 """Section and caption of each figure."""
 INSTEAD = {WHERE: MISMATCH, LEFT_OUT: UNNAMED}
-"""Section for the pictures of an empty section: nothing is missing, or no named effect."""
+"""Section for the figures of an empty section: nothing is missing, or no named effect."""
 SPREADS = (
     " Before: calibrated as if nothing were missing, which spreads the shortfall over all conditions; the text above "
     "keeps the answer's calibration instead, so that signs may differ."
@@ -90,7 +90,7 @@ class Picture:
 
 
 def render(d: Diagnosis, parts: Iterable[Section], drawings: Mapping[str, str]) -> str:
-    """The page; ``drawings`` are SVG by figure name."""
+    """Render the HTML page; ``drawings`` are SVG by figure name."""
     from jinja2 import Environment, StrictUndefined
     from markupsafe import Markup
 
@@ -123,25 +123,25 @@ def render(d: Diagnosis, parts: Iterable[Section], drawings: Mapping[str, str]) 
 
 
 def _with_pictures(parts: Iterable[Section], pictures: Mapping[str, list[Picture]]) -> list[Section]:
-    """The sections, with an empty one for pictures that have no section."""
+    """Sections, with empty sections added for figures without a section."""
     sections = list(parts)
     titles = {part.title for part in sections}
     return sections + [Section(title, ()) for title in pictures if title not in titles]
 
 
 def _equations(d: Diagnosis) -> dict[str, str]:
-    """Drawings of the verdict's equations, by the sentence that they replace."""
+    """Drawings of the verdict's equations, by the sentence they replace."""
     return {equation_sentence(e): equation(bare(e.equation)) for e in effects_of(d.posterior.verdict.effects)}
 
 
 def bare(tex: str) -> str:
-    """An equation in the form that can be drawn: brackets without sizes, every fraction in braces."""
+    """Equation in the syntax of the drawing: brackets without sizes, every fraction in braces."""
     tex = re.sub(r"\\[bB]igg?[lr]?(?![a-zA-Z])", "", tex)
     return re.sub(r"\\frac\s+(\w)\s*(\w)", r"\\frac{\1}{\2}", tex)
 
 
 def _cards(d: Diagnosis) -> list[tuple[str, str]]:
-    """The numbers a reader looks for first."""
+    """Key numbers of the answer, with labels."""
     p = d.test.p_value
     cards = [
         (p_words(p), "chance of such a mismatch when nothing is missing (p)"),

@@ -1,4 +1,4 @@
-"""The improved model: the case with the verdict's effects and calibration at their most probable values."""
+"""Improved model: the case with the verdict's effects and calibration at their most probable values."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ FILES = ("system.toml", *(f"{name}.csv" for name in TABLES))
 
 
 def most_probable(d: Diagnosis) -> np.ndarray:
-    """Coordinates of the verdict's fit; without the error of form, where one was fitted, since a law has none."""
+    """Coordinates of the verdict's fit, without the error of form because a law has none."""
     refined = verdict_fit(d)
     return refined.fit.z if refined.bend else refined.z
 
 
 def improved_case(d: Diagnosis) -> Case | None:
-    """The case whose simulation is the verdict's fit; none where the verdict is a discrepancy, which has no law.
+    """Case that simulates the verdict's fit; None for a discrepancy, which has no law.
 
-    Parameters and calibration are the most probable ones of the verdict alone: no average over explanations or change
+    Parameters and calibration are the most probable values of the verdict alone: no average over explanations or change
     points, and no error of form. The recording is kept, because inputs are scaled by it.
     """
     verdict = d.posterior.verdict
@@ -51,6 +51,6 @@ def improved_case(d: Diagnosis) -> Case | None:
 
 
 def improved_files(d: Diagnosis) -> dict[str, str | bytes]:
-    """The folder of the improved model, by path in the answer; empty where there is none."""
+    """Files of the improved model, by path in the answer; empty for a discrepancy."""
     case = improved_case(d)
     return {} if case is None else {f"{FOLDER}/{name}": content for name, content in case_files(case).items()}

@@ -1,4 +1,4 @@
-"""Autocorrelated residuals: how many consecutive readings carry the information of one."""
+"""Autocorrelated residuals: number of readings per effective reading."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from mixedlub.recording.conditions import SERIES, clock_of
 
 
 def variance_inflation(search: Search) -> float:
-    """Readings per effective reading, from the residuals of the explanation that fits best.
+    """Readings per effective reading, from the residuals of the best explanation.
 
-    The smaller of two values: under the most probable effects and under the discrepancy. What either still explains is
-    not noise.
+    It is the smaller value of the most probable effects and the discrepancy: residuals that either explains are not
+    noise.
     """
     return min(_inflation_of(search, left) for left in (search.best_named.residual, search.discrepancy.fit.residual))
 
@@ -58,10 +58,10 @@ def _inflation_of(search: Search, residual: np.ndarray) -> float:
 def batch_means_inflation(residual: np.ndarray, clock: np.ndarray) -> float:
     r"""Variance inflation of sums over consecutive residuals, by the method of batch means; at least 1.
 
-    ``residual`` is standardised. For independent ones :math:`\sum_n z / \sqrt n` has variance one for batches
-    of any length n. For autocorrelated ones it is larger, and a slow trend is known as if there were so many times
-    fewer readings. An excess within two standard errors is chance.
-    Batch means: G. S. Fishman, Principles of Discrete Event Simulation (1978).
+    ``residual`` is standardised. For independent residuals :math:`\sum_n z / \sqrt n` has variance one for batches of
+    any length n. For autocorrelated residuals it is larger, and a slow trend is as uncertain as with so many times
+    fewer readings. An excess within two standard errors is chance. Batch means: G. S. Fishman, Principles of Discrete
+    Event Simulation (1978).
 
     >>> noise = np.random.default_rng(1).standard_normal(512)
     >>> batch_means_inflation(noise, np.arange(512.0))

@@ -33,7 +33,7 @@ def search_correlated_error(
 ) -> tuple[Search, NoiseInflation]:
     """Repeat the search with a correlated (Ornstein-Uhlenbeck) error, and return the inflation of the white noise left.
 
-    ``inflation`` is that of the stated noise so far, ``largest`` the one that repeats allow at most. ``trial``
+    ``inflation`` is the inflation of the stated noise so far, ``largest`` the largest that repeats allow. ``trial``
     searches for a case and a correlated error. If nothing may be missing, the error is no larger than the scatter
     between neighbours.
     """
@@ -53,11 +53,11 @@ def search_correlated_error(
 
 
 def estimate_correlated_error(search: Search, least: float) -> tuple[CorrelatedError, float]:
-    """The most probable correlated error, and the factor on the white noise that remains.
+    """Most probable correlated error, and the factor on the remaining white noise.
 
-    The best explanation with it must beat the best one without it. The white noise may shrink by the factor ``least``:
-    part of it may have been the correlated error. Where a shaft turns none is fitted, because neighbours in time then
-    share their position.
+    The best explanation with this error must beat the best without it. The white noise may shrink by the factor
+    ``least``: part of it may have been the correlated error. No error is fitted for a turning shaft, because neighbours
+    in time then share their position.
     """
     present, screened = search.problem.correlated_error, search.full_screen
     record, clock = clock_of(search.problem.rows, ties=True), clock_of(screened.problem.rows, ties=True)
@@ -87,7 +87,7 @@ def estimate_correlated_error(search: Search, least: float) -> tuple[CorrelatedE
 
 
 def correlated_error_variance(search: Search) -> float:
-    """Variance of the correlated error over that of single readings, from residuals of the most probable effects."""
+    """Variance of the correlated error over the white noise, from residuals of the most probable effects."""
     if not search.problem.correlated_error.size:
         return 0.0
     best_named = search.best_named
@@ -132,9 +132,9 @@ def is_autocorrelated(residual: np.ndarray) -> bool:
 def _most_probable(
     problem: Problem, forms: Sequence[CorrelatedError], least: float, target: np.ndarray, slopes: np.ndarray
 ) -> tuple[float, tuple[CorrelatedError, float]]:
-    """Gain in log evidence of a linear model, and the correlated error and white noise that give it.
+    """Gain in log evidence of a linear model, and the correlated error and white noise with this gain.
 
-    Where several readings count as one, the white noise stays as it is.
+    The white noise stays unchanged if several readings count as one.
     """
     smaller_noise = (
         [*(q for q in WHITE_SHARES if q > least), *([least] if least < 1.0 else [])]

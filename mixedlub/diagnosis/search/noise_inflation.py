@@ -1,4 +1,4 @@
-"""Search with the stated noise, inflated where residuals demand it, or with estimated noise where none is stated."""
+"""Search under the stated noise, inflated if residuals demand it, or under estimated noise."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from mixedlub.schema.table import Table
 
 
 class Trial(Protocol):
-    """A search for a case, or a ``near`` search weighed again under its noise."""
+    """Function that searches a case, or weighs a ``near`` search again under its noise."""
 
     def __call__(self, case: Case, near: Search | None = None) -> Search: ...
 
@@ -41,7 +41,7 @@ class NoiseInflation:
     extra_relative: float = 0.0
 
     def of(self, case: Case) -> Case:
-        """The case with it."""
+        """Case with this noise."""
         if self.extra_relative:
             sd = rows_of(case)[f"{case.quantity}_sd"].astype(float)
             case = _with_sds(case, np.hypot(sd, self.extra_relative * np.abs(readings_of(case))))
@@ -49,12 +49,12 @@ class NoiseInflation:
 
 
 def search_stated_noise(case: Case, trial: Trial, most: float) -> tuple[Search, NoiseInflation]:
-    """The search under the stated noise, or under inflated noise where the readings clearly demand it.
+    """Search under the stated noise, or under inflated noise if the readings clearly demand it.
 
     Every explanation, the discrepancy included, is weighed again with its residuals under more noise. Inflation is
-    accepted where the best of them beats the best one under the stated noise: residuals that vary smoothly with
-    conditions are a discrepancy, the rest is noise. Repeats at equal conditions bound the factor by ``most``. Without
-    repeats a column of standard deviations may be repeatability only, and a share of the reading is added.
+    accepted if the best of them beats the best under the stated noise: residuals that vary smoothly with conditions are
+    a discrepancy, the rest is noise. Repeats at equal conditions bound the factor by ``most``. Without repeats a column
+    of standard deviations may be repeatability only, and a share of the reading is added.
     """
     accepted, inflation = trial(case), NoiseInflation()
     if f"{case.quantity}_sd" in rows_of(case) and np.isinf(most):
@@ -69,9 +69,9 @@ def search_stated_noise(case: Case, trial: Trial, most: float) -> tuple[Search, 
 
 
 def _with_share(case: Case, trial: Trial, search: Search) -> tuple[Search, NoiseInflation]:
-    """The search with the extra relative noise that makes the readings most probable.
+    """Search with the extra relative noise that makes the readings most probable.
 
-    A hill climb starts from a typical share, and from the one that the residuals suggest. Shares in between are weighed
+    Hill climbs start from a typical share, and from the share suggested by the residuals. Shares in between are weighed
     from the nearest finished search; the best share is then searched in full.
     """
     tried = {-1: search, FIRST_SHARE: trial(NoiseInflation(extra_relative=EXTRA_SHARES[FIRST_SHARE]).of(case))}
@@ -126,7 +126,7 @@ def best_inflation(search: Search) -> tuple[float, float]:
 
 
 def _under_other_noise(search: Search, times: np.ndarray) -> tuple[float, int]:
-    """Gain in log probability of the best explanation under noise ``times`` (m, readings) as large, and which of m."""
+    """Gain in log probability of the best explanation by noise ``times`` (m, readings) as large, and the best of m."""
     weights = search.log_weights
     best_log, best = -np.inf, 0
     for key, weight in weights.items():
@@ -141,7 +141,7 @@ def _under_other_noise(search: Search, times: np.ndarray) -> tuple[float, int]:
 
 
 def search_estimated_noise(case: Case, trial: Trial) -> Search:
-    """The search under the estimated noise, scaled so that the readings are most probable.
+    """Search under the estimated noise, scaled so that the readings are most probable.
 
     The residuals then give the relative and the absolute part of the noise, better than a few repeats do.
     """

@@ -1,4 +1,4 @@
-"""Selection of the noise model: stated, inflated or estimated, with correlation where residuals show it."""
+"""Selection of the noise model: stated, inflated or estimated, with correlation if residuals show it."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from mixedlub.recording.readings import rows_of
 
 @dataclass(frozen=True, eq=False)
 class NoiseSearch:
-    """The search under the selected noise, its inflation, and a function that repeats the search under another noise.
+    """Search under the selected noise, its inflation, and a function that repeats the search under another noise.
 
     ``repeat`` takes the case, the number of readings per effective reading, and the correlated error.
     """
@@ -41,11 +41,11 @@ class NoiseSearch:
 
     @property
     def noise_factor(self) -> float:
-        """Total noise of a reading over the stated one, the correlated error included."""
+        """Total noise of a reading over the stated noise, including the correlated error."""
         return self.inflation.factor * self.search.problem.correlated_error.total_sd
 
     def null_search(self) -> Search:
-        """The search with the autocorrelation that residuals have if nothing is missing."""
+        """Search with the autocorrelation of the residuals under the null hypothesis."""
         problem = self.search.problem
         n_under_null = variance_inflation_under_null(self.search)
         if n_under_null <= problem.n_per_effective:

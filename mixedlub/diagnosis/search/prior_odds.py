@@ -1,4 +1,4 @@
-"""Prior odds of explanations: nothing missing, up to three effects, and beside them other laws of the base."""
+"""Prior odds of explanations: nothing missing, up to three effects, and other laws of the base model."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from mixedlub.diagnosis.settings.search import (
 
 
 def priors(effects: int) -> tuple[float, ...]:
-    """Prior weights of nothing, of one effect, of two and of three, for a number of effects.
+    """Prior weights of nothing missing, one effect, two and three, for a number of effects.
 
-    Among few effects the prior of nothing is raised, and those of pairs and triples are lowered.
+    Among few effects the prior of nothing is raised, and the priors of pairs and triples are lowered.
 
     >>> priors(30), [round(p, 3) for p in priors(6)]
     ((0.42, 0.38, 0.08, 0.02), [0.887, 0.38, 0.019, 0.001])
@@ -35,7 +35,7 @@ def priors(effects: int) -> tuple[float, ...]:
 
 
 def log_odds_of_laws(count: int) -> float:
-    """Log prior odds of certain other laws of the base model against none, for their number.
+    """Log prior odds of ``count`` given other laws of the base model against none.
 
     >>> [round(float(np.exp(log_odds_of_laws(n))), 4) for n in range(4)]
     [1.0, 0.02, 0.002, 0.0002]
@@ -45,13 +45,13 @@ def log_odds_of_laws(count: int) -> float:
 
 @dataclass(frozen=True)
 class PriorOdds:
-    """Prior weights of the explanations that some effects and laws can form."""
+    """Prior weights of all explanations formed from given effects and laws."""
 
     ids: tuple[str, ...]
 
     @classmethod
     def of(cls, ids: Iterable[str]) -> PriorOdds:
-        """Of effects and laws by id."""
+        """Prior odds for effects and laws by id."""
         return cls(tuple(ids))
 
     @cached_property
@@ -61,12 +61,12 @@ class PriorOdds:
 
     @cached_property
     def laws(self) -> tuple[str, ...]:
-        """Those that replace a step of the base model."""
+        """Laws that replace a step of the base model."""
         return tuple(name for name in self.ids if name not in self._odds)
 
     @cached_property
     def _sizes(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        """Prior weight of each number of effects, and the sum of the products of their odds that shares it."""
+        """Prior weight of each number of effects, and the sum of the products of odds that share it."""
         weights = priors(len(self._odds))
         sums = np.zeros(len(weights))
         sums[0] = 1.0
@@ -84,7 +84,7 @@ class PriorOdds:
         return float(np.log(weight / total) + odds)
 
     def effects_among(self, explanation: Explanation) -> list[str]:
-        """Effects of an explanation that are no other law of the base model."""
+        """Effects of an explanation, without other laws of the base model."""
         return [name for name in explanation.effects if name in self._odds]
 
     @property
@@ -94,16 +94,16 @@ class PriorOdds:
 
     @property
     def _of_laws(self) -> float:
-        """Weight of any set of other laws, that of none among them, over that of none."""
+        """Weight of all sets of other laws, the empty set included, over the weight of the empty set."""
         return 1.0 + LAW_ODDS / FURTHER_LAW_ODDS * ((1.0 + FURTHER_LAW_ODDS) ** len(self.laws) - 1.0)
 
     @property
     def of_nothing(self) -> float:
-        """Weight of nothing missing."""
+        """Prior weight of nothing missing."""
         return self._sizes[0][0]
 
     def chance(self, name: str) -> float:
-        """Prior probability of one effect alone, or of a law."""
+        """Prior probability of a single effect alone, or of a law."""
         if name in self.laws:
             return LAW_ODDS * (1.0 + FURTHER_LAW_ODDS) ** (len(self.laws) - 1) / self._of_laws
         return float(np.exp(self.log(Explanation.of(name)))) / (sum(self._sizes[0]) + PRIOR["discrepancy"])

@@ -1,4 +1,4 @@
-"""Search over explanations: nothing, each effect, several together, and the discrepancy."""
+"""Search over explanations: nothing missing, each effect, several together, and the discrepancy."""
 
 from __future__ import annotations
 
@@ -67,16 +67,16 @@ class Search:
 
     @property
     def full_screen(self) -> Search:
-        """The search that looked at every explanation: on a share of the rows where there are very many."""
+        """Search over every explanation, on a subset of the rows of a long recording."""
         return self if self.screen is None else self.screen
 
     @property
     def best_named(self) -> Fit:
-        """The fit of the most probable explanation that the catalogue has, nothing missing among them."""
+        """Fit of the most probable explanation except the discrepancy."""
         return self.fits[max(self.fits, key=self.log_weights.__getitem__)]
 
     def fit_of(self, explanation: Explanation) -> Fit | Linear:
-        """The fit of any explanation, the discrepancy among them."""
+        """Fit of any explanation, including the discrepancy."""
         return self.discrepancy.fit if explanation.is_discrepancy else self.fits[explanation]
 
     @property
@@ -89,7 +89,7 @@ class Search:
 
     @property
     def prior_odds(self) -> PriorOdds:
-        """Prior odds of the explanations that its effects can form."""
+        """Prior odds of the explanations formed from the testable effects."""
         return PriorOdds.of(s.id for s in self.draws)
 
     @property
@@ -118,7 +118,7 @@ def search(
     exclude: Sequence[str] = (),
     progress: Progress = lambda text: None,
 ) -> Search:
-    """Fit every explanation worth fitting and weigh them.
+    """Fit and weigh all promising explanations.
 
     Beyond MANY rows all explanations are tried on a subset, and the most probable ones are fitted to all rows.
     """
@@ -144,7 +144,7 @@ def search(
 def reweighed(search: Search, problem: Problem) -> Search:
     """Weigh a search again under another noise: its fits are continued, and no explanation is added.
 
-    Fits far behind the best one under either noise, by their residuals, are only rescaled.
+    Fits far behind the best under both noises are only rescaled.
     """
     best = search.best_named
     problem = problem.with_sd(best.prediction, search.null_fit.prediction)
@@ -171,7 +171,7 @@ def _counted_anew(residual: np.ndarray, scale: np.ndarray) -> float:
 
 
 def spread_rows(values: list[np.ndarray], count: int) -> np.ndarray:
-    """A subset of the rows that covers the conditions evenly."""
+    """Subset of the rows that covers the conditions evenly."""
     order = np.lexsort(values[::-1]) if values else np.arange(count)
     edges = np.linspace(0, count, SUBSET + 1).astype(int)
     # One of each stretch at random: every n-th row could coincide with the levels of a condition.
@@ -219,7 +219,7 @@ def _scores(
     values: list[np.ndarray],
     draws: Sequence[PriorDraws],
 ) -> dict[Explanation, float]:
-    """Evidence of every explanation with errors of form, and with published laws where it is near the best."""
+    """Evidence of every explanation with errors of form, and with published laws if near the best."""
     scores = {m: form_error_evidence(problem, fits[NOTHING], f, space, values) for m, f in fits.items()}
     odds = PriorOdds.of(s.id for s in draws)
     weights = {m: score + odds.log(m) for m, score in scores.items()}
@@ -232,7 +232,7 @@ def _scores(
 def _fit_pairs(
     problem: Problem, null_fit: Fit, singles: dict[Explanation, Fit], draws: tuple[PriorDraws, ...]
 ) -> list[Fit]:
-    """Fits of the promising pairs of effects that time alone does not confuse."""
+    """Fits of the promising pairs of effects, without pairs that are inseparable in time."""
 
     leaders = sorted(singles.values(), key=lambda f: -f.evidence)[:PAIR_LEADERS]
     added = promising_additions(problem, leaders, draws, PAIRS)
@@ -241,9 +241,9 @@ def _fit_pairs(
 
 
 def shows(problem: Problem, fit: Fit, fits: Mapping[Explanation, Fit]) -> bool:
-    """Whether an explanation affects more readings, beyond any part of it, than are outliers a priori.
+    """Whether an explanation changes more readings, relative to any part of it, than the prior share of outliers.
 
-    The seconds after a start could be any effect that passes quickly.
+    A few seconds after a start could fit any effect that passes quickly.
     """
     parts = (other for m, other in fits.items() if set(m.effects) < set(fit.explanation.effects))
     nets = (np.abs(fit.prediction - other.prediction) / problem.sd for other in parts)
@@ -251,7 +251,7 @@ def shows(problem: Problem, fit: Fit, fits: Mapping[Explanation, Fit]) -> bool:
 
 
 def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: np.ndarray) -> dict[Explanation, Fit]:
-    """The fits under a new noise level; those far behind the best only keep their distance to it.
+    """Fits under a new noise level; fits far behind the best only keep their distance to it.
 
     ``scale`` is the old noise over the new.
     """
@@ -265,13 +265,13 @@ def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: 
 
 
 def n_inexact(explanation: Explanation) -> int:
-    """Number of effects whose form may be inexact: not those of an exact form, and none if one is descriptive."""
+    """Number of effects subject to an error of form; zero if any effect is descriptive."""
     effects = effects_of(explanation.effects)
     return 0 if any(e.descriptive for e in effects) else sum(not e.exact_form for e in effects)
 
 
 def form_error_evidence(problem: Problem, stiff: Fit, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:
-    """Evidence with a smooth error of form: of what the effects add to a ``stiff`` reference fit."""
+    """Evidence with a smooth error of form in the change by the effects from a ``stiff`` reference fit."""
     count = n_inexact(fit.explanation)
     if not count:
         return fit.evidence

@@ -1,4 +1,4 @@
-"""Several at once: other laws of the base model and effects beside each other, and laws beneath a discrepancy."""
+"""Combinations: other laws of the base model, effects, and laws beneath a discrepancy."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from mixedlub.diagnosis.settings.search import ADDED_TO, MOST_ADDED, MOST_EFFECT
 from mixedlub.recording.conditions import Coordinates
 
 CLOCKS = {"time", "sequence", "ageing"}
-"""Quantities that change by themselves while a test runs."""
+"""Quantities that change by themselves during a test."""
 
 
 def one_in_time(several: Explanation, problem: Problem, null_fit: Fit) -> bool:
-    """Whether effects cannot be separated: one is a fault of the channel, and all depend on time alone.
+    """Whether effects are inseparable: one is a fault of the channel, and all depend on time alone.
 
-    Their sum is then one function of time, however good the fit. A condition that drifts, and on which neither they
-    nor the base model depend beyond noise, separates nothing.
+    Their sum is then a single function of time, however good the fit. A drifting condition without influence on them or
+    on the base model beyond noise separates nothing.
     """
     effects, inputs = effects_of(several.effects), problem.forward.inputs
     inputs_read = {name for e in effects for name in e.reads if name in inputs and np.ptp(inputs[name]) > 0.0}
@@ -35,17 +35,17 @@ def one_in_time(several: Explanation, problem: Problem, null_fit: Fit) -> bool:
 
 
 def fit_from(problem: Problem, starts: Sequence[tuple[Explanation, np.ndarray]], rival: float) -> list[Fit]:
-    """Fits of explanations from a start each, the most promising first."""
+    """Fits of explanations, each from one start, the most promising first."""
     return fit_best_first(lambda one, best: map_fit(problem, *one, rival=best), starts, rival)
 
 
 def with_additions(
     problem: Problem, fits: dict[Explanation, Fit], draws: tuple[PriorDraws, ...]
 ) -> dict[Explanation, Fit]:
-    """The fits with a further law or effect beside the leaders, as long as one improves.
+    """Fits with a further law or effect added to the leaders, as long as the leaders improve.
 
-    Pairs of laws are all tried. A further effect is tried beside laws, and beside two effects, or one and a law, where
-    nothing is much more probable.
+    All pairs of laws are tried. A further effect is added to laws, and to two effects, or an effect and a law, if no
+    other explanation is much more probable.
     """
     prior = PriorOdds.of(s.id for s in draws)
     laws = tuple(s for s in draws if s.id in prior.laws)
@@ -82,10 +82,10 @@ def discrepancy_beside_laws(
     values: list[np.ndarray],
     names: Collection[str],
 ) -> Discrepancy:
-    """The discrepancy added to the base model, or to the best other laws of it where they are more probable.
+    """Discrepancy added to the base model, or to its best other laws if more probable.
 
-    Its evidence counts both; what it is added to, and its form, are those of the more probable one. Beside laws of the
-    oil alone, as a viscometer reads them, a free function is an error of their form and no discrepancy.
+    The evidence sums both; base and form are taken from the more probable. Added to laws of the oil alone, as in a
+    viscometer, a free function is an error of their form and not a discrepancy.
     """
     laws = set(PriorOdds.of(names).laws)
     laws = laws if any(e.stage == "law" for e in effects_of(laws)) else set()

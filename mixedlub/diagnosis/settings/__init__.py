@@ -1,6 +1,6 @@
-"""Every number that decides an outcome of the diagnosis, with its reason and what kind of reason that is.
+"""Numbers that decide an outcome of the diagnosis, each with the kind of its reason.
 
-Definition: follows from what the name means. Source: taken from the literature. Measured: by the test that is named.
-Grid: values that are tried, of which the readings choose. Cost limit: more would cost time and change answers little.
-Judgement: chosen by the authors; another choice near it would be as defensible.
+Definition: follows from the meaning of the name. Source: from the literature. Measured: by the named test. Grid: tried
+values; the readings choose among them. Cost limit: more would cost time and change answers little. Judgement: chosen by
+the authors; a similar value would be as defensible.
 """

@@ -1,4 +1,4 @@
-"""Settings: what the answer is, and what speaks against it."""
+"""Settings: assessment of the answer, and doubts about it."""
 
 from fractions import Fraction
 
@@ -20,13 +20,13 @@ ALTERNATIVE_SIZES = (1.0, 4.0)
 WEIGHT_OF_EFFECTS = 0.6
 """Judgement. Prior weight of the effects among the alternatives; smooth functions share the rest: power only."""
 SMALLEST_P = 1e-304
-"""Definition. Smallest p-value that a number of the answer can hold."""
+"""Definition. Smallest p-value representable in the answer."""
 BAYES_FACTOR_MARGIN = 10.0
 """Judgement. Margin for the approximations of the search's Bayes factor: an error of 2.3 in log evidence."""
 STATED_NOISE_SCALES = (1.0,)
 """Definition. Factors on stated noise: it is known."""
 UNSTATED_NOISE_SCALES = tuple(np.geomspace(0.12, 2.0, 13))
-"""Grid. Factors on unstated noise, relative to what the calibrated base model needs."""
+"""Grid. Factors on unstated noise, relative to the noise under the calibrated base model."""
 
 # Cross-validation
 MOST_FOLDS = 8
@@ -44,24 +44,24 @@ TOLERATED_SHARE = 0.3
 MOST_PENALTY = 20.0
 """Judgement. Largest penalty in log odds: 2e-9 leaves no doubt."""
 LEAST_MISMATCH = 0.3
-"""Judgement. Least mismatch, in squared standard deviations, of which a share is judged: less is noise."""
+"""Judgement. Least mismatch (squared standard deviations) in the judgement of shares: less is noise."""
 CHANCE_GAIN = 5.0
 """Judgement. Gain in log probability of effects over the discrepancy, on left-out levels, that may be chance: odds
 of 150."""
 VALIDATED = 6
-"""Cost limit. Explanations that are cross-validated; each costs as many fits as there are levels."""
+"""Cost limit. Cross-validated explanations; each costs as many fits as there are levels."""
 
 # Probabilities and averages
 TIE = 0.1
 """Judgement. Ratio to the verdict's probability from which an explanation ties with it: ten to one."""
 FLOOR = 1e-6
-"""Judgement. Least probability that is stated, and least difference from one: models are not surer."""
+"""Judgement. Least stated probability, and least difference from one: models are not surer."""
 TEST_MARGIN = 1.25
 """Judgement. Odds by which the test puts "nothing missing" behind or ahead of the best explanation: just visible."""
 MOST_AVERAGED = 6
 """Cost limit. Explanations that are averaged."""
 NEGLIGIBLE = 2e-3
-"""Judgement. Probability below which an explanation is left out of the average: it hardly moves it."""
+"""Judgement. Probability below which an explanation is left out of the average: it hardly changes the average."""
 
 # Published laws and their ranges
 LAW_REJECTED = -4.6
@@ -71,21 +71,22 @@ LAW_OPEN = -2.3
 """Source: H. Jeffreys, Theory of Probability, 3rd ed. (1961), appendix B. Log odds above which a law cannot be
 excluded: a Bayes factor of ten against it, from which evidence is strong."""
 EXACT_EXPONENT = 0.01
-"""Judgement. Distance of an exponent from one of a law at the end of its prior that counts as that: as printed."""
+"""Judgement. Distance between an exponent and a law's exponent at the end of its prior that counts as equal: as
+printed."""
 
 # Power laws
 EXPONENTS = tuple(s * Fraction(n, m) for n, m in ((1, 3), (1, 2), (2, 3), (1, 1), (2, 1)) for s in (1, -1))
-"""Grid. Exponents of a power law: those of simple physics."""
+"""Grid. Exponents of a power law, as in simple physics."""
 COLLINEAR = 0.999
 """Judgement. Correlation of two quantities from which they are equivalent: no reading is so exact."""
 VARIED_FROM = 0.05
 """Judgement. Range of the logarithm of a quantity from which it varied: 5 %."""
 BEAM_WIDTH = 12
-"""Cost limit. Forms that are kept and extended at each step."""
+"""Cost limit. Forms kept and extended at each step."""
 BLOCK_CELLS = 4_000_000
-"""Cost limit. Numbers that are held in memory at once."""
+"""Cost limit. Numbers held in memory at once."""
 LAW_BLOCKS = 6
-"""Cost limit. Blocks of levels that are left out."""
+"""Cost limit. Blocks of left-out levels."""
 LAW_READINGS = 1500
 """Cost limit. Readings on which forms are tried."""
 LARGEST_LOG_FORM = 30.0
@@ -95,13 +96,13 @@ ABSORBING_LENGTH = 0.7
 MOST_ERROR_SHARE = 0.7
 """Judgement. Ratio of the error on left-out levels with and without a power law, above which it is rejected."""
 CONDITIONS_WON = 0.75
-"""Judgement. Share of the conditions on whose left-out levels a power law must predict better: most of them."""
+"""Judgement. Share of the conditions in which a power law must predict left-out levels better: most of them."""
 
 # Next test
 MOST_CONDITIONS = 600
-"""Cost limit. Conditions that are evaluated."""
+"""Cost limit. Evaluated conditions."""
 SMALLEST_WEIGHT = 1e-12
-"""Judgement. Smallest probability of an explanation whose logarithm is taken: below any that matters."""
+"""Judgement. Lower bound on the probability of an explanation in logarithms: below any relevant probability."""
 WORTH_TESTING = 0.01
 """Judgement. Probability from which an explanation is included in the choice of a test: a hundred to one."""
 MOST_RIVALS = 5
@@ -111,9 +112,10 @@ RIVAL_WEIGHT = 0.05
 TESTS, TESTS_APART = 3, 2
 """Judgement. Tests that are proposed, and the conditions in which each two differ: a short list without twins."""
 BEYOND_SPAN, BEYOND_LOWEST = 0.25, 0.6
-"""Judgement. How far a test may lie beyond the recorded range, as a share of it, and of the lowest level."""
+"""Judgement. Extent of tests beyond the recorded range as a share of it, and lowest level of a test over the lowest
+recorded."""
 INNER_QUANTILES = (0.0, 0.33, 0.67, 1.0)
-"""Grid. Quantiles of the levels of a condition that stand for all of them."""
+"""Grid. Quantiles of the levels of a condition that represent all levels."""
 TEST_LEVELS = 8
 """Cost limit. Levels of a condition that are tried."""
 HERMITE_NODES = 21
@@ -121,7 +123,7 @@ HERMITE_NODES = 21
 
 # Where the mismatch lies, and what lies beyond the recording
 NO_MISMATCH = 1e-9
-"""Judgement. Mismatch in standard deviations below which there is none: rounding."""
+"""Judgement. Mismatch in standard deviations below which it counts as zero: rounding."""
 LARGE_SHARE = 0.5
 """Judgement. Share of the largest mismatch from which a reading belongs to the region: a half."""
 MOST_CUTS = 3
@@ -132,7 +134,7 @@ CUT_GAIN = 0.02
 """Judgement. Gain in F-score by which a further cut is accepted: a simpler region is better."""
 OUTSIDE_OF_SPAN, OUTSIDE_OF_END, OUTSIDE_OF_LOWEST = 0.1, 0.02, 0.25
 """Judgement. A condition extrapolates when it is past an end by a tenth of the span and 2 % of the end, or below 3/4 of
-the lowest: what only scatters about its set point does not."""
+the lowest: scatter about a set point does not."""
 
 # Doubts about the answer
 MANY_OUTLIERS = 0.1
@@ -140,13 +142,14 @@ MANY_OUTLIERS = 0.1
 OPPOSITE_WITHIN = 0.3
 """Judgement. Sum of reading and prediction over the reading, below which an outlier has the opposite sign: roughly."""
 LEAST_STREAK, RARE = 3, 0.05
-"""Judgement. Consecutive outliers that are reported, where chance makes fewer such streaks than that: 5 % level."""
+"""Judgement. Least length of a reported streak of outliers, and largest number of such streaks by chance: 5 % level."""
 MOST_OF_LEVEL = 0.75
 """Judgement. Share of the readings of a level from which a streak counts as that level: most of them."""
 OVERDISPERSION_REPORTED = 1.5
-"""Judgement. Inflation of the variance from which it is reported: errors of 1.2 times those expected."""
+"""Judgement. Inflation of the variance from which it is reported: errors of 1.2 times the expected ones."""
 POOR_PREDICTION = 3.0
-"""Judgement. Error on left-out levels, in standard deviations of a reading, from which it fails there: beyond noise."""
+"""Judgement. Error on left-out levels, in standard deviations of a reading, from which the prediction fails: beyond
+noise."""
 LARGE_NOISE = 0.1
 """Judgement. Share of a reading from which estimated noise is doubted: rigs do better."""
 VISIBLE = 3.0

@@ -8,7 +8,7 @@ SMOOTH_LENGTHS = (0.25, 0.7)
 ROUGH_LENGTH = 0.08
 """Judgement. Correlation length of a rough form of one condition: 12 levels are then nearly independent."""
 READING_SIZES = (0.7, 2.0, 6.0, 20.0, 60.0)
-"""Grid. Standard deviations of a discrepancy of the reading, in those of the noise: factors of three."""
+"""Grid. Standard deviations of a discrepancy of the reading over the noise: factors of three."""
 LOG_FACTOR_SIZES = (0.03, 0.1, 0.3, 1.0)
 """Grid. Standard deviations of the logarithm of a factor on a quantity of the chain: factors of three."""
 SCREENED_SIZE = 2
@@ -26,7 +26,7 @@ NO_INFLUENCE = 1e-9
 PEAK_WIDTHS = (0.01, 0.03, 0.1)
 """Grid. Standard deviations of a peak, as shares of the range of the condition; the least is a single level."""
 LOCAL_LEVELS = 5
-"""Judgement. Levels of a condition from which local forms are tried; the smooth form follows a peak among fewer."""
+"""Judgement. Levels of a condition from which local forms are tried; among fewer, the smooth form follows a peak."""
 MOST_PLACES = 40
 """Cost limit. Places of a condition that are tried first; the best ones are refined later."""
 LOCAL_READINGS = 3.0
@@ -34,7 +34,8 @@ LOCAL_READINGS = 3.0
 PEAK_SHARE = 0.4
 """Judgement. Share of the readings that a peak may cover; more is a trend."""
 LOCAL_CONFOUNDED = 0.75
-"""Judgement. Largest share of the variance of a form in time that a condition explains: beyond, it is its own."""
+"""Judgement. Largest share of the variance of a form in time that a condition explains: beyond, the condition is the
+cause."""
 SAME_FORM_WITHIN = 0.05
 """Judgement. Largest difference of two local forms of height one that count as the same: 5 %."""
 BOX_SEEDS = 12
@@ -54,6 +55,7 @@ PERIOD_STEP = 0.25
 WAVE_REFINEMENT = PERIOD_STEP * np.linspace(-1.0, 1.0, 11)
 """Grid. Refinement of the number of periods about the best wave."""
 WAVE_CONFOUNDED = 0.5
-"""Judgement. Largest share of the variance of a wave that the levels of a condition explain: beyond, it is theirs."""
+"""Judgement. Largest share of the variance of a wave that the levels of a condition explain: beyond, they are the
+cause."""
 STEPPED_SHARE = 0.5
 """Judgement. Levels over readings below which a condition was stepped: each level was then read twice."""

@@ -20,7 +20,7 @@ STRONG_EVIDENCE = 3.0
 """Source: R. E. Kass, A. E. Raftery, J. Am. Stat. Assoc. 90 (1995) 773, doi:10.1080/01621459.1995.10476572, table on
 p. 777. Gain in log evidence that counts: a Bayes factor of 20, from which evidence is strong."""
 LARGEST_EXPONENT = 700.0
-"""Definition. Largest exponent whose exponential a double can hold, rounded down."""
+"""Definition. Largest exponent with an exponential in the range of a double, rounded down."""
 
 # Differences and the size of noise
 FINITE_STEP = 1e-4
@@ -28,7 +28,7 @@ FINITE_STEP = 1e-4
 MOST_COORDINATE = 4.5
 """Judgement. Largest coordinate in prior standard deviations: 99.9993 % of the prior."""
 SMALLEST_READING = 1e-30
-"""Judgement. Smallest prediction whose logarithm is taken: far below any reading."""
+"""Judgement. Lower bound on predictions in logarithms: far below any reading."""
 NOISE_BY_READING_BELOW = 0.1
 """Judgement. Ratio of prediction to reading below which relative noise is taken from the reading: the model lacks a
 part of the rig."""
@@ -49,7 +49,7 @@ HUBER_BOUND = 5.0
 REWEIGHTINGS = 30
 """Cost limit. Iterations in which a linear fit decides on its outliers."""
 QUICK_REWEIGHTINGS = 4
-"""Cost limit. The same where a fit only ranks starting values."""
+"""Cost limit. Iterations of a fit that only ranks starting values."""
 WEIGHTS_CONVERGED = 1e-3
 """Judgement. Change of every weight below which these iterations have converged."""
 GAUSS_NEWTON_STEPS = 20
@@ -67,19 +67,19 @@ PREFIT_TOLERANCE = 0.5
 FIT_TOLERANCE = 2e-3
 """Judgement. Gain in log probability below which a fit ends: invisible in any odds."""
 NESTED_TOLERANCE = 0.05
-"""Judgement. The same where published laws only change the odds of an explanation."""
+"""Judgement. Tolerance of fits with published laws, which only change the odds of an explanation."""
 SAME_FIT_WITHIN = 0.1
 """Judgement. Prior standard deviations within which two prefits lead to the same result."""
 HOPELESS_BEHIND = 60.0
 """Cost limit. Log evidence behind the best from which a fit is given up, or not repeated under a new noise."""
 PRECISION_BEHIND = 0.01
-"""Cost limit. Precision of the evidence of a fit behind the best, over its distance to that."""
+"""Cost limit. Precision of the evidence of a fit behind the best, over the distance between them."""
 EVIDENCE_BOUND_FACTOR = 2.0
-"""Judgement. Gain that a fit may still make over that of its linearisation, before it is given up: twice."""
+"""Judgement. Possible gain of a fit over the gain of its linearisation, before the fit is given up: twice."""
 STEPS_BEFORE_GIVING_UP = 3
 """Judgement. Steps before a fit may be given up: the first ones are far from linear."""
 STEP_LENGTHS = (1.0, 0.5, 0.25, 0.1, 0.0)
-"""Grid. Lengths of a damped step, over the full one."""
+"""Grid. Lengths of a damped step over the full step."""
 
 # Starting values
 PRIOR_DRAWS = 18
@@ -113,7 +113,7 @@ NEGLIGIBLE_DENSITY = 15.0
 REFIT_GAIN = 0.5
 """Judgement. Gain in log density from which the fit is repeated from another place: less is the scan's coarseness."""
 MOST_LOG_RATIO = 50.0
-"""Judgement. Largest log density over that of the fit in an integral: it prevents overflow."""
+"""Judgement. Bound on the log density relative to the fit in an integral: it prevents overflow."""
 CHANGE_POINT_QUANTILES = (np.arange(20) + 0.5) / 20.0
 """Grid. Quantiles of the posterior of a change point over which predictions are averaged."""
 

@@ -1,4 +1,4 @@
-"""Settings: what the report says."""
+"""Settings: statements of the report."""
 
 import numpy as np
 

@@ -7,15 +7,15 @@ PRIOR = {"nothing": 0.42, "single": 0.38, "pair": 0.08, "triple": 0.02, "discrep
 """Judgement. Prior weights before any reading: nothing missing is as probable as one effect, each further one is about
 a fifth as probable."""
 LEAST_NOTHING_ODDS = 14.0
-"""Judgement. Least prior odds of nothing over each single effect: one that the readings neither need nor exclude then
-does not tie with nothing missing."""
+"""Judgement. Least prior odds of nothing missing over each single effect: they prevent ties with effects that the
+readings neither need nor exclude."""
 FULL_PAIR_PRIOR = 25
 """Judgement. Number of effects from which pairs have their whole prior; among fewer, pairs are fewer too, and triples
 by the square."""
 LAW_ODDS = 0.02
-"""Judgement. Prior odds that one step of the base model follows another published law than its own, on any one rig."""
+"""Judgement. Prior odds that a step of the base model follows another published law, on a given rig."""
 FURTHER_LAW_ODDS = 0.1
-"""Judgement. Odds of each further such step where one does: laws that differ come together, on one rig or on none."""
+"""Judgement. Odds of each further such step after the first: deviating laws occur together, on one rig or on none."""
 AFFECTED = 0.1
 """Judgement. Share of the largest change by an explanation from which a reading is affected: less is hardly seen."""
 
@@ -27,7 +27,7 @@ MOST_EFFECTS = 3
 MANY = 1200
 """Cost limit. Readings beyond which explanations are searched on a subset."""
 SUBSET = 600
-"""Cost limit. Readings of that subset."""
+"""Cost limit. Readings of this subset."""
 REFITTED_ON_ALL = 8
 """Cost limit. Most probable explanations of a subset that are fitted again to all readings."""
 PUBLISHED_WITHIN = 20.0
@@ -37,19 +37,19 @@ PUBLISHED_WITHIN = 20.0
 FORM_ERRORS = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
 """Judgement. Relative rms error of an effect's form, and its prior probability: about the spread of published forms."""
 FORM_ERROR_LENGTH, SIGNED_FORM_ERROR_LENGTH = 0.7, 0.35
-"""Judgement. Correlation lengths of an error of form along a condition, and along one of both signs: half as long."""
+"""Judgement. Correlation lengths of an error of form along a condition of one sign, and of both signs: half as long."""
 FORM_ERROR_FUNCTIONS, SIGNED_FORM_ERROR_FUNCTIONS = 4, 8
-"""Cost limit. Functions of an error of form along a condition, and along one of both signs."""
+"""Cost limit. Functions of an error of form along a condition of one sign, and of both signs."""
 FORM_ERROR_PRODUCTS = 3
-"""Cost limit. Functions of a condition in products with those of another."""
+"""Cost limit. Functions of each condition in products of two conditions."""
 FORM_ERROR_LEAST = 0.3
 """Judgement. Share of the typical change that replaces a small one: another form need not vanish there."""
 FORM_ERROR_GAIN_SHARE = 0.01
 """Judgement. Most that an error of form may add to the log evidence, over the squares of an effect: 14 % error."""
 FORM_ERROR_GAIN_FLOOR = 4.0
-"""Judgement. Least bound on that gain: a small effect may be wrong in form as well."""
+"""Judgement. Least bound on this gain: a small effect may be wrong in form as well."""
 FORM_ERROR_GAIN_CAP = 30.0
-"""Judgement. Largest bound on that gain: beyond it another effect is missing, not another form of this one."""
+"""Judgement. Largest bound on this gain: beyond it another effect is missing, not another form of this effect."""
 
 # Size of the noise
 INFLATION_FACTORS = np.array([1.1, 1.25, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 4.0, 6.0, 10.0])
@@ -78,7 +78,7 @@ OVERSTATED_VARIANCE = 0.25
 
 # Correlated noise
 LEAST_BATCHES = 16
-"""Judgement. Batches from which the variance of their sums is estimated: its own standard error is then 35 %."""
+"""Judgement. Batches from which the variance of their sums is estimated: its standard error is then 35 %."""
 DRIFT_HALF_WAVES = 2
 """Judgement. Half waves over a recording that count as drift and are removed: a trend and one turn."""
 DRIFT_READINGS = 40
@@ -86,11 +86,12 @@ DRIFT_READINGS = 40
 CORRELATION_SHARES = (0.02, 0.04, 0.08)
 """Grid. Correlation times, as shares of the record; a longer one is a change of the surfaces, not noise."""
 ERROR_SIZES = (0.5, 1.0, 2.0, 4.0)
-"""Grid. Standard deviations of the correlated error over that of a single reading: factors of two."""
+"""Grid. Standard deviations of the correlated error over the noise of a single reading: factors of two."""
 WHITE_SHARES = (0.7, 0.5, 0.35)
-"""Grid. Shares of the noise for single readings, where the rest is correlated."""
+"""Grid. Shares of the noise for single readings; the rest is correlated."""
 DRIFT_CANDIDATES = 6
-"""Cost limit. Most probable effects for which it is fitted, in addition to nothing missing and the discrepancy."""
+"""Cost limit. Most probable effects with a fitted correlated error, in addition to nothing missing and the
+discrepancy."""
 MOST_UNDER_NULL = 2.0
 """Judgement. Largest correlated error if nothing is missing, over the scatter between neighbours; more is physics."""
 DRIFT_GAIN = 12.0

@@ -1,4 +1,4 @@
-"""Binning of values where a figure has no room for each."""
+"""Binning of values with more levels than a figure can show."""
 
 from __future__ import annotations
 
@@ -11,8 +11,7 @@ from mixedlub.recording.set_points import set_points
 def together(values: np.ndarray, most: int, bins: int | None = None) -> tuple[np.ndarray, np.ndarray]:
     """Group of each value, and the lower median of each group.
 
-    A group is one level as it is printed. With more than ``most`` levels, the groups are ``bins`` of about equal
-    counts, each of one sign.
+    A group is a printed level; beyond ``most`` levels, the groups are ``bins`` of one sign and about equal counts.
 
     >>> label, place = together(np.array([-9.0, -8.0, -7.0, 5.0, 6.0, 7.0]), 2)
     >>> label.tolist(), place.tolist()

@@ -107,7 +107,7 @@ def heldout(d: Diagnosis) -> Figure:
 
 
 def absorbing_stages(extra: DescribedDiscrepancy) -> Figure | None:
-    """How well each quantity could explain the discrepancy; none where the readings do not distinguish them."""
+    """Bars of log evidence by quantity for the discrepancy; None if the readings do not distinguish the quantities."""
     from matplotlib.ticker import MaxNLocator
 
     if not distinguishable(extra.stages):
@@ -130,7 +130,7 @@ def absorbing_stages(extra: DescribedDiscrepancy) -> Figure | None:
 
 
 def empirical_form(d: Diagnosis, extra: DescribedDiscrepancy) -> Figure | None:
-    """The power law of the discrepancy against the readings; none where no law holds."""
+    """Power law of the discrepancy against the readings; None if no law holds."""
     law = extra.law
     if law is None:
         return None
@@ -163,7 +163,7 @@ def empirical_form(d: Diagnosis, extra: DescribedDiscrepancy) -> Figure | None:
 
 
 def next_test(d: Diagnosis) -> Figure | None:
-    """The recommended tests among the recorded conditions, and the information expected from each."""
+    """Recommended tests among the recorded conditions, with their expected information."""
     tests = [t for t in d.next_tests if t.expected_bits >= USELESS_TEST]
     frame = maps.frame_of(d)
     if not tests or not frame.across or not frame.up:

@@ -41,7 +41,7 @@ MOST_LEVELS, BINS = 12, 10
 
 
 def all_figures(d: Diagnosis, extra: DescribedDiscrepancy | None = None) -> dict[str, Figure]:
-    """Every figure that has content in this case, by file name, in reading order."""
+    """All figures with content for this case, by file name, in reading order."""
     alike = confusion(d.search)
     named = tuple(dict.fromkeys(n for k in d.posterior.tied for n in k.effects))
     with look():
@@ -63,7 +63,7 @@ def all_figures(d: Diagnosis, extra: DescribedDiscrepancy | None = None) -> dict
 
 
 def _shown(d: Diagnosis) -> np.ndarray:
-    """Rows that are drawn: all, or an even selection of very many; outliers always."""
+    """Indices of the drawn rows: an even selection of at most MOST_POINTS, and all outliers."""
     count = d.readings.size
     rows = np.unique(np.linspace(0, count - 1, min(count, MOST_POINTS)).astype(int))
     return np.union1d(rows, np.flatnonzero(d.outlier_chance > LIKELY))
@@ -116,7 +116,7 @@ def recorded_against_simulated(d: Diagnosis) -> Figure:
 def _residuals(
     axes: Axes, simulated: np.ndarray, z: np.ndarray, rows: np.ndarray, bad: np.ndarray, reach: float, colour: str
 ) -> None:
-    """Draw residuals (sigma) over simulated values; those beyond the scale are drawn at its edge."""
+    """Draw residuals (sigma) over simulated values, clipped at the edges of the scale."""
     clipped = np.clip(z, -reach, reach)
     good = rows[~bad[rows]]
     axes.axhspan(-2, 2, color=GRID, lw=0)
@@ -153,7 +153,7 @@ def _one_to_one(axes: Axes, every: np.ndarray, simulated: np.ndarray, sd: np.nda
 
 
 def _noise_along(line: np.ndarray, simulated: np.ndarray, sd: np.ndarray, logarithmic: bool) -> np.ndarray:
-    """Median sd of readings along a line of simulated values; readings of similar size may differ much in sd."""
+    """Median sd of the readings along a line of simulated values; readings of similar size may differ much in sd."""
     label, centres = together(simulated, BINS)
     typical = np.array([np.median(sd[label == k]) for k in range(centres.size)])
     if logarithmic:
@@ -211,7 +211,7 @@ def missing_part(d: Diagnosis) -> Figure | None:
 
 
 def _spread(x: np.ndarray, by: np.ndarray) -> np.ndarray:
-    """Spread points of few levels a little, in the order of another quantity, so that none hides another."""
+    """Offset points of equal level slightly, in the order of another quantity, so that all remain visible."""
     levels, label = np.unique(x, return_inverse=True)
     if levels.size > 12 or levels.size < 2:
         return x
@@ -331,7 +331,7 @@ def intervals(d: Diagnosis) -> Figure:
 
 
 def _outliers(axes: Axes, place: np.ndarray, away: np.ndarray, reach: float) -> None:
-    """Draw outliers as rings; those beyond the scale as triangles at its edge."""
+    """Draw outliers as rings, and outliers beyond the scale as triangles at its edge."""
     edge = 0.94 * reach
     label: str | None = "outlier"
     for marker, there in (("o", np.abs(away) <= edge), ("^", away > edge), ("v", away < -edge)):

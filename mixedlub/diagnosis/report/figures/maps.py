@@ -38,7 +38,7 @@ DRIFT = 0.05
 
 @dataclass(frozen=True)
 class Frame:
-    """The conditions along x, along y and over the panels of a map; empty where there is none."""
+    """Conditions along x, along y and over the panels of a map; an empty name marks an unused axis."""
 
     across: str
     up: str
@@ -46,7 +46,7 @@ class Frame:
 
 
 def frame_of(d: Diagnosis) -> Frame:
-    """The axes of the map: the varied conditions, each where a reader expects it."""
+    """Axes of the map: the varied conditions, in conventional places."""
     varied = _varied(d)
     # In a history of friction time matters most: it comes before the set points.
     chosen = [n for n in ("time_s",) if n in varied and d.case.kind.is_history]
@@ -98,12 +98,12 @@ def residual_map(d: Diagnosis) -> Figure | None:
 
 
 def _limit(z: np.ndarray) -> float:
-    """Limit of the colour scale: it covers nearly all residuals, and is wide enough that noise stays pale."""
+    """Limit of the colour scale, which covers nearly all residuals and keeps noise pale."""
     return float(np.clip(np.quantile(np.abs(z), 0.95) if z.size else 0.0, 3.0, 3.0 * LIMIT))
 
 
 def _levels(values: np.ndarray, most: int, name: str) -> tuple[np.ndarray, list[str]]:
-    """Level of each value, and the names of the levels; bins where there are too many."""
+    """Level of each value, and the names of the levels; many levels are binned."""
     if not name:
         return np.zeros(values.size, int), [""]
     label, centres = together(values, most)
@@ -115,10 +115,7 @@ def _levels(values: np.ndarray, most: int, name: str) -> tuple[np.ndarray, list[
 def _tiles(
     axes: Axes, d: Diagnosis, frame: Frame, here: np.ndarray, z: np.ndarray, norm: Normalize, outlier: np.ndarray
 ) -> None:
-    """Draw one panel: a block for every pair of levels, with a tile for every reading.
-
-    With very many readings, a tile is the mean of a few.
-    """
+    """Draw a panel: a block for every pair of levels, a tile for every reading or, with very many, every few."""
     from matplotlib.collections import PatchCollection
     from matplotlib.patches import Rectangle
 
@@ -157,7 +154,7 @@ def _tiles(
 
 
 def _block(count: int) -> list[tuple[float, float, float, float]]:
-    """A block around the origin divided into ``count`` tiles (left, bottom, width, height) in even rows."""
+    """Tiles (left, bottom, width, height) in even rows of a block around the origin."""
     side = BLOCK
     rows = max(1, round(float(np.sqrt(count / 1.8))))
     tiles, start = [], -0.5 * side
@@ -169,13 +166,13 @@ def _block(count: int) -> list[tuple[float, float, float, float]]:
 
 
 def _ticks(values: np.ndarray) -> tuple[np.ndarray, list[str]]:
-    """Level of each value and the ticks' texts; bins where there are too many levels."""
+    """Level of each value, and the tick labels; many levels are binned."""
     label, places = together(values, MOST_LEVELS)
     return label, [number(float(v)) for v in places]
 
 
 def _order(d: Diagnosis, row: int) -> tuple[str, ...]:
-    """Sort key of the readings in a block: their conditions, so that all blocks have the same order."""
+    """Sort key of a reading in a block: its conditions, so that all blocks have the same order."""
     table = d.recorded.table
     names = [c.name for c in d.case.kind.columns if c.name in table]
     return tuple(f"{table[n][row]:012.4f}" if table[n].dtype.kind == "f" else str(table[n][row]) for n in names)
@@ -296,7 +293,7 @@ def confusability(alike: Confusion, emphasised: tuple[str, ...]) -> Figure | Non
 
 
 def _chosen(alike: Confusion, emphasised: tuple[str, ...], most: int) -> np.ndarray:
-    """The effects shown: those of the answer, then the most similar, then the most visible."""
+    """Indices of the effects shown: the answer and the effects most similar to it, or else the most visible effects."""
     if len(alike.ids) <= most:
         return np.arange(len(alike.ids))
     answer = [alike.ids.index(name) for name in emphasised if name in alike.ids]
@@ -306,7 +303,7 @@ def _chosen(alike: Confusion, emphasised: tuple[str, ...], most: int) -> np.ndar
 
 
 def _similarity_order(cosine: np.ndarray) -> np.ndarray:
-    """An order in which similar effects are neighbours."""
+    """Order of the effects that makes similar effects neighbours."""
     from scipy.cluster.hierarchy import leaves_list, linkage
     from scipy.spatial.distance import squareform
 

@@ -54,9 +54,9 @@ def blank(width: float, height: float) -> Figure:
 
 
 def as_drawn(figure: Figure) -> str:
-    """The figure as an `svg` element; the layout is computed once and not again on saving.
+    """Figure as an `svg` element, with a single computation of the layout.
 
-    The style applies to both steps: another size of tick labels could add labels that the layout has no room for.
+    The style applies to layout and saving: another size of tick labels could add labels without room in the layout.
     """
     with look():
         engine = figure.get_layout_engine()
@@ -89,7 +89,7 @@ def by_decades(values: np.ndarray) -> bool:
 
 
 def log_ticks(axes: Axes, which: str) -> None:
-    """Plain numbers on a logarithmic axis: at 1, 2 and 5, or at decades where there are many."""
+    """Put plain numbers on a logarithmic axis: at 1, 2 and 5, or at decades on a wide axis."""
     from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
     axis = axes.xaxis if which == "x" else axes.yaxis

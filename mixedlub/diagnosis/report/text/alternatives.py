@@ -1,4 +1,4 @@
-"""Alternatives in words: similar effects, rejected ones, and those that these readings cannot show."""
+"""Alternatives in words: similar, rejected and undetectable effects."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from mixedlub.diagnosis.settings.assessment import VISIBLE
 from mixedlub.diagnosis.settings.report import MOST_SIMILAR, REJECTED, SAME_SIGNATURE, SIMILAR
 
 AS_IF_NOTHING = "as if nothing were missing"
-"""How the noise is estimated where none is stated and the verdict is that nothing is missing."""
+"""Condition of the noise estimate if no noise is stated and the verdict is nothing missing."""
 
 
 HIDDEN = f"the noise was estimated {AS_IF_NOTHING}, and what is taken for noise may hide some of them"
 
 
 def alternatives(d: Diagnosis, similarity: Confusion) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Sentences, and the tests that separate the tied effects."""
+    """Sentences on the alternatives, and the tests that separate the tied effects."""
     sentences = _resemblance(d, similarity)
     names = dict.fromkeys(name for key in d.posterior.tied for name in key.effects)
     items = tuple(f"{effect_words(e.id)}: {e.separated_by}" for e in effects_of(names))
@@ -79,16 +79,13 @@ def _resemblance(d: Diagnosis, similarity: Confusion) -> tuple[str, ...]:
 
 
 def undetectable_effects(d: Diagnosis, similarity: Confusion) -> list[str]:
-    """Effects outside the tied explanations that these readings would not show at typical strength."""
+    """Effects outside the tied explanations that are undetectable in these readings at typical strength."""
     tied = {name for key in d.posterior.tied for name in key.effects}
     return [name for name in similarity.unseen() if name not in tied]
 
 
 def _not_excluded(d: Diagnosis, inclusion: Mapping[str, float], named_elsewhere: Collection[str]) -> list[str]:
-    """Explanations neither tied, rejected nor ``named_elsewhere``, with probability, most probable first.
-
-    Among them may be that nothing is missing, and the discrepancy.
-    """
+    """Explanations (also none and unknown) neither tied, rejected nor ``named_elsewhere``, with probability."""
     named = {name for key in d.posterior.tied for name in key.ids}
     names = [
         name for name, p in inclusion.items() if p >= REJECTED and name not in named and name not in named_elsewhere
@@ -97,13 +94,13 @@ def _not_excluded(d: Diagnosis, inclusion: Mapping[str, float], named_elsewhere:
 
 
 def _with_chance(name: str, inclusion: Mapping[str, float]) -> str:
-    """An effect, with its probability unless that is small enough to be rejected."""
+    """Name of an effect, with its probability unless rejected."""
     p = inclusion.get(name, 0.0)
     return f"{effect_words(name)} ({chance(p)})" if p >= REJECTED else effect_words(name)
 
 
 def _improbable(d: Diagnosis) -> list[str]:
-    """Improbable effects; not those of the measurement where single readings are outliers."""
+    """Improbable effects, except effects on the reading if there are outliers."""
     weighed = {
         name: p for name, p in d.posterior.inclusion(d.search).items() if name not in NOTHING.ids + DISCREPANCY.ids
     }

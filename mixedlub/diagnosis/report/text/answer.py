@@ -1,4 +1,4 @@
-"""The answer for other programs: `diagnosis.json` and `predictions.csv`."""
+"""Answer for other programs: `diagnosis.json` and `predictions.csv`."""
 
 from __future__ import annotations
 
@@ -75,13 +75,13 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
 
 
 def verdict_fit(d: Diagnosis) -> Refined:
-    """The refined fit of the verdict, or of the calibrated base model where the verdict is a discrepancy."""
+    """Refined fit of the verdict, or of the calibrated base model for a discrepancy."""
     key = d.posterior.verdict
     return d.refined[NOTHING if key.is_discrepancy else key]
 
 
 def verdict_residual(d: Diagnosis) -> np.ndarray:
-    """(recorded - fitted)/sd of a single reading after the verdict."""
+    """Residuals (recorded - fitted)/sd after the verdict, with the sd of a single reading."""
     discrepancy = d.posterior.verdict.is_discrepancy
     residual = d.search.discrepancy.fit.residual if discrepancy else verdict_fit(d).residual
     return d.search.problem.single_reading_units(residual)
@@ -127,7 +127,7 @@ def interval(prior: Prior, z: float, spread: float) -> tuple[float, float, float
 
 
 def _value_and_interval(refined: Refined, prior: Prior, index: int, spread: float) -> tuple[float, float, float]:
-    """Value and 90 % interval of a fitted coordinate; for a change point, quantiles of its posterior."""
+    """Value and 90 % interval of a fitted coordinate; quantiles of the posterior for a change point."""
     for change_point in refined.change_points:
         if change_point.index == index:
             low, high = (prior.value(change_point.at(share)) for share in INTERVAL_ENDS)
@@ -136,13 +136,13 @@ def _value_and_interval(refined: Refined, prior: Prior, index: int, spread: floa
 
 
 def separating_text(names: tuple[str, ...]) -> str:
-    """The catalogue's tests that separate the named effects."""
+    """Tests of the catalogue that separate the named effects."""
     ids = [part for name in names for part in name.split("+") if part not in NOTHING.ids + DISCREPANCY.ids]
     return "; ".join(dict.fromkeys(f"{e.id}: {e.separated_by}" for e in effects_of(ids)))
 
 
 def predictions(d: Diagnosis) -> pd.DataFrame:
-    """Predictions of the recorded and requested rows, each run once, with conditions and recorded readings."""
+    """Predictions of the recorded and requested rows, each run once, with conditions."""
     import pandas as pd
 
     parts = []
@@ -156,7 +156,7 @@ def predictions(d: Diagnosis) -> pd.DataFrame:
 
 
 def _validity(d: Diagnosis, table: Table) -> np.ndarray:
-    """Validity of the rows of a table with the verdict's effects, where the verdict has laws."""
+    """Validity of the rows of a table under the verdict, or of the base model for a discrepancy."""
     problem, verdict = d.search.problem, d.posterior.verdict
     scale = float(problem.forward.inputs["reading_scale"])
     if verdict.is_discrepancy:
@@ -166,4 +166,4 @@ def _validity(d: Diagnosis, table: Table) -> np.ndarray:
 
 
 PREDICTED = ("base", "calibrated", "predicted", "low90", "high90", "mismatch_z")
-"""Columns of the table of predictions after the run."""
+"""Columns of predictions.csv after the run."""

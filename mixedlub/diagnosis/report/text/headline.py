@@ -1,4 +1,4 @@
-"""The verdict in a few sentences, with the findings that question it."""
+"""Verdict in a few sentences, with the findings that question it."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ NO_ANSWER = (
 
 
 def chance(p: float) -> str:
-    """A probability as printed: never 0 or 1.
+    """Printed probability, never 0 or 1.
 
     >>> chance(0.853), chance(0.9999), chance(0.001)
     ('0.85', 'above 0.99', 'below 0.01')
@@ -28,7 +28,7 @@ def chance(p: float) -> str:
 
 
 def percent(p: float) -> str:
-    """A probability in percent, never 0 or 100.
+    """Printed probability in percent, never 0 or 100.
 
     >>> percent(0.853), percent(0.9999), percent(0.001)
     ('85 %', '>99 %', '<1 %')
@@ -38,7 +38,7 @@ def percent(p: float) -> str:
 
 
 def hundredths(p: float) -> int:
-    """A probability in hundredths, rounded in the same way wherever it is printed.
+    """Probability in hundredths, rounded alike in all texts.
 
     >>> [hundredths(p) for p in (0.0049, 0.0055, 0.9945, 0.9951)]
     [0, 1, 99, 100]
@@ -47,7 +47,7 @@ def hundredths(p: float) -> int:
 
 
 def p_words(p: float) -> str:
-    """The p-value of the mismatch test as printed everywhere.
+    """Printed p-value of the mismatch test.
 
     >>> p_words(0.0042), p_words(1e-304)
     ('0.0042', 'below 1e-300')
@@ -67,7 +67,7 @@ def lesser(d: Diagnosis) -> tuple[str, ...]:
 
 
 def headline(d: Diagnosis) -> str:
-    """The verdict in one sentence, preceded by a warning where readings are few or all outliers."""
+    """Verdict in one sentence, after a warning about few, contradictory or only outlying readings."""
     count = d.readings.size
     sentence = _verdict(d)
     if d.posterior.verdict.is_discrepancy and "repeats_contradictory" in codes(d.warnings):
@@ -118,7 +118,7 @@ def _verdict(d: Diagnosis) -> str:
 
 
 def _rest(d: Diagnosis) -> list[str]:
-    """The tied explanations beyond those named, as one item of the list."""
+    """Count of the tied explanations beyond MOST_TIED, as an item of the list."""
     more = len(d.posterior.tied) - MOST_TIED
     return [f"{more} less probable one{'s' if more > 1 else ''}"] if more > 0 else []
 
@@ -130,7 +130,7 @@ def _common(d: Diagnosis) -> list[str]:
 
 
 def _tie_with_common(d: Diagnosis, common: list[str]) -> str:
-    """A tie whose explanations share some effects and differ in the others."""
+    """Tie of explanations that share some effects."""
     posterior, inclusion = d.posterior, d.posterior.inclusion(d.search)
     shared = enumerated([f"{effect_words(name)} ({chance(inclusion[name])})" for name in common])
     each = []
@@ -151,7 +151,7 @@ def _listed(items: list[str], last: str) -> str:
 
 
 def probabilities(d: Diagnosis) -> list[str]:
-    """Probabilities of the effects of the answer, and of the steps of the model at fault."""
+    """Probabilities of the answer's effects, and of the steps of the model at fault."""
     posterior = d.posterior
     sentences = _each(d, set(_common(d)))
     stages = {name: p for name, p in posterior.stages().items() if p >= STAGE_SHOWN}
@@ -164,7 +164,7 @@ def probabilities(d: Diagnosis) -> list[str]:
 
 
 def _each(d: Diagnosis, named: set[str]) -> list[str]:
-    """Probability of each effect over all explanations, where it differs from that of the answer."""
+    """Probability of each effect over all explanations, if printed differently from the answer's probability."""
     posterior = d.posterior
     inclusion, answer = posterior.inclusion(d.search), chance(posterior.weights[posterior.verdict])
     names = [name for name in posterior.verdict.effects if name not in named and chance(inclusion[name]) != answer]
@@ -174,7 +174,7 @@ def _each(d: Diagnosis, named: set[str]) -> list[str]:
 
 
 def probability_words(d: Diagnosis, name: str) -> str:
-    """Probability of one effect of the verdict, alone and together with others."""
+    """Probability of an effect of the verdict, alone and together with others."""
     key = d.posterior.verdict
     answer, overall = chance(d.posterior.weights[key]), chance(d.posterior.inclusion(d.search)[name])
     if answer == overall:

@@ -19,7 +19,7 @@ LEVEL = "Without a named cause, calibration may have absorbed a constant part; l
 
 
 def where(d: Diagnosis) -> tuple[str, ...]:
-    """Location of the mismatch, its largest value, and why signs in the figures may differ."""
+    """Location of the mismatch, its largest value, and the reason for different signs in the figures."""
     if d.posterior.verdict == NOTHING:
         return ()
     z = _mismatch(d)
@@ -33,7 +33,7 @@ def where(d: Diagnosis) -> tuple[str, ...]:
 
 
 def located(d: Diagnosis) -> str:
-    """Where the rig differs from the model without the answer, in which direction, and by how much."""
+    """Conditions, direction and size of the difference between the rig and the model without the answer."""
     z, inside = _mismatch(d), d.region.inside
     if not z.any():
         return NOWHERE
@@ -49,12 +49,12 @@ def located(d: Diagnosis) -> str:
 
 
 def _mismatch(d: Diagnosis) -> np.ndarray:
-    """The mismatch of each reading (sigma); zero for outliers."""
+    """Mismatch of each reading (sigma); zero for outliers."""
     return np.where(d.counted, d.recorded.mismatch_z, 0.0)
 
 
 def _direction(z: np.ndarray, predicted: np.ndarray) -> str:
-    """Whether readings are more or less than expected, or more or less in size where signs are mixed.
+    """Direction of the mismatch: more or less than expected, or more or less in size for negative or mixed signs.
 
     >>> _direction(np.array([2.0, 3.0]), np.ones(2)), _direction(np.array([2.0, -3.0]), np.array([1.0, -1.0]))
     ('more', 'more in size, either sign,')
@@ -73,7 +73,7 @@ def _direction(z: np.ndarray, predicted: np.ndarray) -> str:
 
 
 def _share(lacking: np.ndarray, predicted: np.ndarray) -> np.ndarray:
-    """Missing part relative to the larger of the readings with and without it, as either may be near zero.
+    """Missing part over the larger reading, with or without it, because either may be near zero.
 
     >>> _share(np.array([3.0, -0.09]), np.array([4.0, 0.0])).tolist()
     [0.75, 1.0]

@@ -1,4 +1,4 @@
-"""The effects of the catalogue that come nearest to the discrepancy."""
+"""Effects of the catalogue nearest to the discrepancy."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ SUITS = (
 
 @dataclass(frozen=True)
 class Nearest:
-    """The nearest effects, the share they explain, and the chi-square of ``count`` readings before and after.
+    """Nearest effects, the share they explain, and the chi-square before and after.
 
-    The chi-square is that of single readings, as in the mismatch test. The explanation is empty where no effect
-    explains enough.
+    Chi-square sums ``count`` single readings, as in the mismatch test. ``explanation`` is empty if no effect explains
+    enough.
     """
 
     explanation: Explanation
@@ -35,7 +35,7 @@ class Nearest:
 
 
 def nearest(d: Diagnosis) -> Nearest | None:
-    """The effects that explain most of the discrepancy; None where an effect is tied with it, or nothing is missing."""
+    """Effects that explain most of the discrepancy; None for a wave, a tie with effects, or no discrepancy."""
     search, tied = d.search, d.posterior.tied
     if DISCREPANCY not in tied or search.discrepancy.best.form == "wave" or any(key.effects for key in tied):
         return None
@@ -56,7 +56,7 @@ def nearest(d: Diagnosis) -> Nearest | None:
 
 
 def nearest_name(d: Diagnosis) -> list[str]:
-    """The nearest effects as a sentence; empty where an effect is tied."""
+    """Sentence on the nearest effects; empty without them."""
     best = nearest(d)
     if best is None:
         return []

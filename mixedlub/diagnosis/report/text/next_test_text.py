@@ -1,4 +1,4 @@
-"""The next test in words: what to run, its expected information, and conditions beyond the recorded range."""
+"""Next test in words: conditions, expected information, and conditions beyond the recorded range."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from mixedlub.recording.noise import setups_differ
 from mixedlub.schema.table import Table
 
 WAITED_FOR = ("time_s",)
-"""Conditions that are reached by waiting."""
+"""Conditions reached by waiting."""
 SETUPS = (
     "It differs between named parts, as it does where parts were mounted anew and set-ups differ: name these in a "
     "column setup and give the error of one set-up as noise.setup_relative or noise.setup_absolute."
@@ -22,7 +22,7 @@ SETUPS = (
 
 
 def next_test(d: Diagnosis) -> tuple[str, ...]:
-    """What to run next, or that no test is useful."""
+    """Recommended next test, or the statement that no test is useful."""
     if d.posterior.verdict.is_discrepancy:
         period = wave_period(d)
         if period:
@@ -53,7 +53,7 @@ def next_test(d: Diagnosis) -> tuple[str, ...]:
 
 
 def to_run(conditions: Mapping[str, float | str], recorded: Table) -> str:
-    """The conditions to set, and the time at which to read.
+    """Conditions to set, and the time of the reading.
 
     >>> import numpy as np
     >>> hour = Table({"time_s": np.array([0.0, 3600.0])})
@@ -74,7 +74,7 @@ def to_run(conditions: Mapping[str, float | str], recorded: Table) -> str:
 
 
 def _refined(d: Diagnosis) -> tuple[str, ...]:
-    """Where to read again to learn the form of the discrepancy; names have no levels between them."""
+    """Readings to repeat or refine to learn the form of the discrepancy; names have no levels in between."""
     shape, space = d.search.discrepancy.best, d.search.space
     table = d.recorded.table
     cuts = d.region.where if shape.at is None else ()
@@ -98,7 +98,7 @@ def _refined(d: Diagnosis) -> tuple[str, ...]:
 
 
 def wave_period(d: Diagnosis) -> str:
-    """Period of the discrepancy where it is a wave in time; empty otherwise."""
+    """Period of a discrepancy that is a wave in time; empty for other forms."""
     shape = d.search.discrepancy.best
     if not shape.waves:
         return ""
@@ -107,7 +107,7 @@ def wave_period(d: Diagnosis) -> str:
 
 
 def local_position(d: Diagnosis) -> str:
-    """Position of a discrepancy that is a peak or a step: a condition, or a run of the programme."""
+    """Position of a peak or step of the discrepancy: a condition, or a run of the programme."""
     shape, rows = d.search.discrepancy.best, d.search.problem.rows
     name, at = shape.axes[0], shape.at or 0.0
     if name == "sequence":
@@ -119,7 +119,7 @@ def local_position(d: Diagnosis) -> str:
 
 
 def box_place(d: Diagnosis) -> str:
-    """The ranges of conditions to which the discrepancy is confined."""
+    """Ranges of conditions that confine the discrepancy."""
     rows, box = d.search.problem.rows, d.search.discrepancy.best.box
     ranges = []
     for name, low, high in box:
@@ -134,7 +134,7 @@ def box_place(d: Diagnosis) -> str:
 
 
 def beyond(conditions: Mapping[str, float | str], recorded: Table) -> tuple[str, ...]:
-    """The conditions of a test outside the recorded range; empty where there are none.
+    """Conditions of a test outside the recorded range; empty if all are inside.
 
     >>> import numpy as np
     >>> beyond({"speed_rpm": 4000.0, "torque_Nm": 50.0}, Table({"speed_rpm": np.array([500.0, 3000.0])}))

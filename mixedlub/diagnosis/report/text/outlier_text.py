@@ -1,4 +1,4 @@
-"""Outlier readings, and the check channel that was not used in any fit, in words."""
+"""Outlier readings and the unfitted check channel, in words."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def checked_channel(d: Diagnosis) -> tuple[str, ...]:
 
 
 def shrunk_noise(d: Diagnosis) -> tuple[str, ...]:
-    """A sentence where stated standard deviations were shrunk much towards those of similar readings."""
+    """Sentence on stated standard deviations that were shrunk strongly towards similar readings."""
     stated = d.recorded.table.columns.get(f"{d.case.quantity}_sd")
     if stated is None:
         return ()

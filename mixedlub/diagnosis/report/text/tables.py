@@ -27,7 +27,7 @@ Cells = tuple[tuple[str, ...], ...]
 
 
 def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
-    """Fitted parameters of the answer's effects, with sentences on those that the readings hardly determine."""
+    """Sentences on poorly determined parameters, and the table of fitted parameters of the answer's effects."""
     if not d.posterior.verdict.effects:
         return (), ()
     refined = verdict_fit(d)
@@ -81,7 +81,7 @@ def _far(prior: Prior, unit: str) -> str:
 
 
 def _doubtful(e: Effect, p: Parameter, far: str) -> list[str]:
-    """Warning that an effect with such a parameter may stand for another one."""
+    """Warning that another effect may explain a parameter far outside its prior."""
     if not far:
         return []
     return [
@@ -91,7 +91,7 @@ def _doubtful(e: Effect, p: Parameter, far: str) -> list[str]:
 
 
 def _unmoved(e: Effect, parameters: list[Parameter]) -> list[str]:
-    """A sentence on parameters without influence on any reading; the table leaves them out."""
+    """Sentence on parameters without influence on any reading, which the table omits."""
     if not parameters:
         return []
     names = enumerated([with_symbol(p.name, plain_equation(p.symbol)) for p in parameters])
@@ -99,7 +99,7 @@ def _unmoved(e: Effect, parameters: list[Parameter]) -> list[str]:
 
 
 def _undetermined(e: Effect, vague: list[str]) -> list[str]:
-    """A sentence on the parameters that the readings do not determine, and on what remains known."""
+    """Sentence on parameters that the readings do not determine."""
     if not vague:
         return []
     wide = f"{' and '.join(vague)} {'are' if len(vague) > 1 else 'is'} {UNDETERMINED}"
@@ -109,7 +109,7 @@ def _undetermined(e: Effect, vague: list[str]) -> list[str]:
 
 
 def _meaning(d: Diagnosis, p: Parameter, value: float) -> str:
-    """Meaning of a parameter; for a relative one also its reference and its absolute value, with unit."""
+    """Meaning of a parameter; for a relative parameter also its reference and its absolute value, with unit."""
     if not p.relative_to:
         return p.meaning
     size, unit = _whole(d, p.relative_to)
@@ -118,7 +118,7 @@ def _meaning(d: Diagnosis, p: Parameter, value: float) -> str:
 
 
 def _whole(d: Diagnosis, name: str) -> tuple[float, str]:
-    """The calibrated input to which a parameter is relative, and its unit."""
+    """Value and unit of the calibrated input to which a parameter is relative."""
     forward = d.search.problem.forward
     if name == "reading_scale":
         return float(forward.inputs[name]) * forward.scale, unit_of(d.case.quantity)
@@ -133,7 +133,7 @@ def _whole(d: Diagnosis, name: str) -> tuple[float, str]:
 
 
 def _cancelling(e: Effect, fitted: list[tuple[Parameter, dict[str, float]]], probability: float) -> list[str]:
-    """A sentence on a certain effect whose parameters may each be null alone."""
+    """Sentence on a certain effect with several parameters that may each be null alone."""
     ends = [(p, p.null, f["low90"], f["high90"]) for p, f in fitted if p.null is not None]
     if len(ends) < 2 or probability < SURE or not all(low < null < high for _, null, low, high in ends):
         return []
@@ -145,7 +145,7 @@ def _cancelling(e: Effect, fitted: list[tuple[Parameter, dict[str, float]]], pro
 
 
 def _switches_off(d: Diagnosis, e: Effect, p: Parameter) -> bool:
-    """Whether an effect of the answer vanishes at the null value of one parameter, the others as fitted."""
+    """Whether an effect of the answer vanishes at the null value of a parameter, with the others as fitted."""
     if p.null is None:
         return False
     problem, key, z = d.search.problem, d.posterior.verdict, verdict_fit(d).z
@@ -157,7 +157,7 @@ def _switches_off(d: Diagnosis, e: Effect, p: Parameter) -> bool:
 
 
 def _interval_with_null(e: Effect, fitted: list[tuple[Parameter, dict[str, float]]], probability: float) -> list[str]:
-    """A sentence on a certain effect although the interval of the parameter that switches it off contains its null."""
+    """Sentence on a certain effect with the null of its switching parameter inside the 90 % interval."""
     ends = [(p, f["low90"] < p.null < f["high90"]) for p, f in fitted if p.null is not None]
     names = [p.name.replace("_", " ") for p, within in ends if within]
     if len(names) != 1 or probability < SURE:
@@ -169,7 +169,7 @@ def _interval_with_null(e: Effect, fitted: list[tuple[Parameter, dict[str, float
 
 
 def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
-    """Calibrated inputs under the verdict: sentences and a table."""
+    """Sentences and table of the calibrated inputs under the verdict."""
     if not d.search.problem.forward.calibrations:
         return ("The case lets calibration move nothing.",), ()
     z, spread = _calibrated(d)
@@ -208,7 +208,7 @@ def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
 
 
 def _sources(case: Case) -> dict[str, str]:
-    """Source of inputs that the case does not state: those that change with the readings are taken from them."""
+    """Source of the inputs not stated by the case: the readings for inputs that scale with them, else an assumption."""
     quantity, rows = case.quantity, case.recordings
     assert rows is not None
     doubled = Table({**rows.columns, quantity: 2.0 * rows[quantity]}, rows.source)
@@ -221,7 +221,7 @@ def _sources(case: Case) -> dict[str, str]:
 
 
 def one_way(forward: Forward) -> list[str]:
-    """A sentence where a drive turned one way only: dry friction and payload are then not separable."""
+    """Sentence on a drive that turned one way only: dry friction and payload are then not separable."""
     constant = {"coulomb_torque", "payload_torque"}
     names = [c.name.replace("_", " ") for c in forward.calibrations if constant & set(c.needs)]
     speed, fitted = (np.asarray(forward.inputs.get(name, 0.0)) for name in ("drive_speed", "gears_fitted"))

@@ -1,4 +1,4 @@
-"""The sections of the report: the same sentences for the text file and the HTML page."""
+"""Sections of the report: the same sentences for the text file and the HTML page."""
 
 from __future__ import annotations
 
@@ -55,10 +55,10 @@ NEXT = "Next test"
 
 @dataclass(frozen=True)
 class Section:
-    """A question, the sentences that answer it, and a table of numbers (the first row is its header).
+    """A section of the report: question, answering sentences, and a table with a header row.
 
-    ``heading`` replaces the title where the bare question would mislead, ``alarms`` precede the first sentence, and
-    ``items`` are a list that follows the last one.
+    ``heading`` replaces a misleading title, ``alarms`` precede the first sentence, and ``items`` are a list after the
+    last.
     """
 
     title: str
@@ -70,7 +70,7 @@ class Section:
 
 
 def sections(d: Diagnosis, unnamed: DescribedDiscrepancy | None = None) -> list[Section]:
-    """All sections of the answer that have content."""
+    """All sections of the answer with content."""
     resemblance, separating = alternatives(d, confusion(d.search))
     parts = [
         Section(ANSWER, (headline(d), *probabilities(d)), alarms=doubts(d)),
@@ -105,7 +105,7 @@ def as_text(title: str, parts: Iterable[Section]) -> str:
 
 
 def _aligned(table: Sequence[Sequence[str]]) -> list[str]:
-    """The rows of a table in columns; the last column is wrapped, or stands below where that takes fewer lines.
+    """Rows of a table in columns; the last column is wrapped beside or below the others, whichever is shorter.
 
     >>> _aligned([("input", "meaning"), ("roughness", "factor on Rq")])
     ['    input      meaning', '    roughness  factor on Rq']
@@ -153,7 +153,7 @@ def _mismatch(d: Diagnosis) -> tuple[str, ...]:
 
 
 def _noise(d: Diagnosis) -> str:
-    """How the noise in a chi-square was estimated, where the recording states none."""
+    """Clause on the noise estimate behind a chi-square; empty if the recording states the noise."""
     if d.noise_stated:
         return ""
     condition = AS_IF_NOTHING if d.posterior.verdict == NOTHING else "together with the missing part"
@@ -256,7 +256,7 @@ def _stage(absorbed: Absorbed) -> str:
 
 
 def _improved(d: Diagnosis) -> tuple[str, ...]:
-    """How to run the model of the verdict at other conditions."""
+    """Instruction to run the verdict's model at other conditions."""
     if d.posterior.verdict.is_discrepancy:
         return ("None can be run at other conditions: the missing part has no law.",)
     return (
