@@ -1,1 +1,1 @@
-"""The Python face: what `import mixedlub as ml` offers to notebooks."""
+"""The Python interface: functions and types of `import mixedlub as ml`."""

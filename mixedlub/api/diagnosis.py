@@ -1,4 +1,4 @@
-"""What the simulation of a case lacks, as an object for notebooks: summary, tables, figures, files."""
+"""Diagnosis and simulation of a case from Python."""
 
 from __future__ import annotations
 
@@ -32,11 +32,29 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Answer:
-    """The answer to the question which physics a simulation lacks.
+    """Diagnosis of a case: the physics missing in its simulation, with summary, tables, figures and files.
 
-    It shows as a summary and prints as the report of `mixedlub diagnose`. ``diagnosis`` holds everything that it was
-    computed from; what is public is what stands here.
+    Returned by `ml.diagnose`; displayed as a short summary, printed as the report of `mixedlub diagnose`.
 
+    Attributes
+    ----------
+    diagnosis : Diagnosis
+        Source of all results; not a public interface.
+    record : dict
+        Content of `diagnosis.json`.
+    verdict : list of str
+        Effect ids of the most probable explanation, or ``["none"]``, or ``["unknown"]``.
+    probabilities : pandas.Series
+        Posterior probability of each effect, of none and of unknown, in descending order.
+    parameters, predictions : pandas.DataFrame
+        Parameters, and the table of `predictions.csv`, with 90 % intervals.
+    findings : list of str
+        Notes, cautions and doubts about the input and the answer.
+    improved : Case
+        The case with the verdict's effects, for `ml.simulate`.
+
+    Examples
+    --------
     >>> import mixedlub as ml, numpy as np
     >>> speed = np.array([10.0, 20, 50, 100, 200, 300, 400, 500] * 4)
     >>> torque = (0.5 + 2e-3 * speed + 0.6 * np.exp(-speed / 40)) * (1 + 0.01 * np.cos(7.0 * np.arange(32)))
@@ -59,12 +77,12 @@ class Answer:
 
     @property
     def verdict(self) -> list[str]:
-        """The most probable explanation: effect ids, or ``["none"]``, or ``["unknown"]``."""
+        """Effect ids of the most probable explanation, or ``["none"]``, or ``["unknown"]``."""
         return list(self.record["verdict"])
 
     @property
     def probabilities(self) -> pd.Series:
-        """Posterior probability that each effect is in the explanation, and of none and unknown; largest first."""
+        """Posterior probability of each effect in the explanation, of none and of unknown; largest first."""
         import pandas as pd
 
         found = pd.Series(self.record["probabilities"], name="probability").rename_axis("effect")
@@ -91,7 +109,10 @@ class Answer:
 
     @property
     def improved(self) -> Case:
-        """The case with the verdict's effects and calibration at their most probable values, for `ml.simulate`."""
+        """The case with the verdict's effects and calibration at their most probable values, for `ml.simulate`.
+
+        Raises ``profiles.errors.InputError`` if the missing part has no law.
+        """
         case = improved_case(self.diagnosis)
         if case is None:
             raise InputError(
@@ -124,7 +145,7 @@ class Answer:
         return all_figures(self.diagnosis)
 
     def plot_residuals(self, over: str = "run", axes: Axes | None = None) -> Axes:
-        """Residuals in standard deviations over a column of the recording, before and after the answer."""
+        """Plot residuals (standard deviations) over a column of the recording, before and after the answer."""
         import matplotlib.pyplot as plt
 
         from mixedlub.diagnosis.labels import axis_label
@@ -144,7 +165,7 @@ class Answer:
         return axes
 
     def write(self, out: str | PathLike[str]) -> Path:
-        """Write what `mixedlub diagnose` writes, and return the folder."""
+        """Write the files of `mixedlub diagnose` to a folder and return its path."""
         folder, case = as_path(out, "write"), self.diagnosis.given
         write(files(self.diagnosis), folder, case_origin(case.folder) if case.is_filed else None)
         return folder
@@ -161,11 +182,31 @@ def diagnose(
     exclude: str | Sequence[str] = (),
     level: float = 0.01,
 ) -> Answer:
-    """Which physics the base model of a recorded case lacks, how sure that is, and what it predicts.
+    """Diagnose which physics is missing in the base model of a recorded case.
 
-    The case is one that was read or made (`ml.case`), or its folder; ``predict`` are conditions in place of its own.
-    ``exclude`` is an effect left out of the catalogue, or several; ``level`` is that of the mismatch test.
+    Parameters
+    ----------
+    case : Case, str or PathLike
+        A case of ``ml.case``, or its folder.
+    predict : DataFrame or mapping of str to array_like, optional
+        Conditions of the predictions, by column; default: the conditions of the case.
+    exclude : str or sequence of str, optional
+        Ids of effects left out of the catalogue.
+    level : float, optional
+        Significance level of the mismatch test.
 
+    Returns
+    -------
+    Answer
+        Verdict, probabilities, parameters with intervals, and predictions.
+
+    Raises
+    ------
+    profiles.errors.InputError
+        If the case, the conditions or the effect ids are invalid.
+
+    Examples
+    --------
     >>> import mixedlub as ml, numpy as np, pandas as pd
     >>> speed = np.array([10.0, 20, 50, 100, 200, 300, 400, 500] * 4)
     >>> torque = (0.5 + 2e-3 * speed + 0.6 * np.exp(-speed / 40)) * (1 + 0.01 * np.cos(7.0 * np.arange(32)))
@@ -180,11 +221,28 @@ def diagnose(
 
 
 def simulate(case: Case | str | PathLike[str], at: Frame | None = None) -> pd.DataFrame:
-    """The model of a case, with the effects and the calibration that it names, at its conditions or those ``at``.
+    """Simulate the model of a case, with the effects and the calibration named in it.
 
-    Conditions are a data frame, or lists by column. The attribute ``findings`` of the result has what a reader should
-    know of it; cautions and doubts are Python warnings.
+    Parameters
+    ----------
+    case : Case, str or PathLike
+        A case of ``ml.case``, or its folder.
+    at : DataFrame or mapping of str to array_like, optional
+        Conditions by column; default: the conditions of the case.
 
+    Returns
+    -------
+    pandas.DataFrame
+        Readings by condition, with their validity. ``attrs["findings"]`` lists all notes, cautions and doubts; cautions
+        and doubts are also issued as ``ml.CautionWarning``.
+
+    Raises
+    ------
+    profiles.errors.InputError
+        If the case or the conditions are invalid.
+
+    Examples
+    --------
     >>> import mixedlub as ml
     >>> drive = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm"}}
     >>> rows = {"speed_rpm": [100.0, 200.0, 300.0], "friction_torque_Nm": [0.51, 0.62, 0.69]}
@@ -202,12 +260,12 @@ def simulate(case: Case | str | PathLike[str], at: Frame | None = None) -> pd.Da
 
 
 def _case(case: Case | str | PathLike[str], where: str) -> Case:
-    """A case, read where it is given by its folder."""
+    """Return the case, read from a folder if necessary."""
     return case if isinstance(case, Case) else read_case(as_path(case, where))
 
 
 def _ids(exclude: str | Sequence[str]) -> tuple[str, ...]:
-    """Effect ids, given as one or as several."""
+    """Tuple of effect ids."""
     ids = (exclude,) if isinstance(exclude, str) else tuple(exclude) if isinstance(exclude, Iterable) else (exclude,)
     if not all(isinstance(one, str) for one in ids):
         raise InputError("must be the id of an effect, or a list of effect ids", where="exclude", value=exclude)

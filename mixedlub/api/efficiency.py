@@ -18,11 +18,26 @@ if TYPE_CHECKING:
 
 
 def gearbox_efficiency(file: str | PathLike[str]) -> xr.Dataset:
-    """Losses and efficiencies of the file of a gearbox at every torque and speed of its ``[conditions]``.
+    """Losses and efficiencies of a gearbox at every torque and speed of its ``[conditions]``.
 
-    Losses in W, in all, by origin, and by part (``part_loss_W``); tooth and gearbox efficiency in percent, NaN without
-    torque. The file is that of `mixedlub efficiency`.
+    Parameters
+    ----------
+    file : str or PathLike
+        Gearbox file (TOML) of `mixedlub efficiency`.
 
+    Returns
+    -------
+    xarray.Dataset
+        Variables over (``torque_Nm``, ``speed_rpm``): losses (W) in total and by origin, tooth and gearbox efficiency
+        (percent; NaN at zero torque), and validity; ``part_loss_W`` over (``part``, ``torque_Nm``, ``speed_rpm``).
+
+    Raises
+    ------
+    profiles.errors.InputError
+        If the file is missing or invalid.
+
+    Examples
+    --------
     >>> import mixedlub as ml
     >>> from mixedlub.efficiency import EXAMPLE
     >>> found = ml.gearbox_efficiency(str(EXAMPLE))

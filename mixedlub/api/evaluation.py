@@ -1,4 +1,4 @@
-"""Recordings of a rig turned into friction, from Python."""
+"""Evaluation of rig recordings to friction, from Python."""
 
 from __future__ import annotations
 
@@ -12,8 +12,27 @@ if TYPE_CHECKING:
 
 
 def evaluate_recording(method: str, file: Any) -> dict[str, pd.DataFrame]:
-    """The tables of `mixedlub evaluate` by name: a method, as ``"calorimetric"``, and the path of its file.
+    """Evaluate a recording of a rig: the tables of `mixedlub evaluate`.
 
+    Parameters
+    ----------
+    method : str
+        Name of the method, e.g. ``"calorimetric"``.
+    file : str or PathLike
+        File (TOML) of the evaluation.
+
+    Returns
+    -------
+    dict of str to pandas.DataFrame
+        Tables by name; columns carry their unit.
+
+    Raises
+    ------
+    profiles.errors.InputError
+        If the method is unknown or the file is invalid.
+
+    Examples
+    --------
     >>> import tempfile, pathlib
     >>> from mixedlub.commands.new import evaluation_files
     >>> with tempfile.TemporaryDirectory() as folder:

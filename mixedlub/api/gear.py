@@ -29,12 +29,37 @@ def load_distribution(
     edge_contact: bool = False,
     pitch_deviation_um: Sequence[float] = (0.0,),
 ) -> xr.Dataset:
-    """Load share, line loads, transmission error, stiffness and loss factor of a gear pair at torques on the pinion.
+    """Loaded tooth contact of a gear pair at torques on the pinion.
 
-    ``gears`` are made by ``ml.gear_pair``; its ``load_sharing`` says whether teeth are elastic and how they are
-    modified. The other arguments are the keys of ``[mesh]`` in a file of `mixedlub gear`. One tooth pair is followed
-    over ``roll_angle_deg``; the transmission error is over ``base_pitches`` and elastic teeth only have it.
+    Parameters
+    ----------
+    gears : Gears
+        Gear pair of ``ml.gear_pair``; its ``load_sharing`` sets rigid or elastic teeth and their modifications.
+    torque_Nm : array_like
+        Torque on the pinion (N m), positive.
+    positions : int, optional
+        Mesh positions per base pitch.
+    slices : int, optional
+        Slices across the face width; default: chosen by the model.
+    edge_contact : bool, optional
+        Whether contact off the path of contact, at tip edges, carries load.
+    pitch_deviation_um : sequence of float, optional
+        Pitch deviations of consecutive tooth pairs (µm).
 
+    Returns
+    -------
+    xarray.Dataset
+        ``load_share``, ``line_load_N_mm`` and ``hertz_pressure_MPa`` of one tooth pair over ``roll_angle_deg`` of the
+        pinion (line load and pressure also over ``face_position_mm``); face load factor and local loss factor over
+        ``torque_Nm``. Elastic teeth only: transmission error (µm) and mesh stiffness (N/µm) over ``base_pitches``.
+
+    Raises
+    ------
+    profiles.errors.InputError
+        If an argument is invalid.
+
+    Examples
+    --------
     >>> import mixedlub as ml
     >>> pair = ml.gear_pair(preset="fzg_c", load_sharing={"model": "ldp"})
     >>> found = ml.load_distribution(pair, [100, 300])

@@ -40,12 +40,41 @@ def power_loss(
     options: Mapping[str, Any] | None = None,
     effects: Mapping[str, Mapping[str, float | str]] | None = None,
 ) -> xr.Dataset:
-    """Power lost by a gear pair at every combination of torque, speed (both of the pinion) and oil temperature.
+    """Power loss of a gear pair at every combination of torque, speed and oil temperature.
 
-    ``surfaces`` are those of pinion and gear, or one for both. A condition given as a list becomes a dimension of the
-    result; ``options`` and ``effects`` are those of a study file. The variables are the columns of a study's table; the
-    attribute ``findings`` has what a reader should know of them, and its cautions and doubts are Python warnings.
+    Parameters
+    ----------
+    gears : Gears
+        Gear pair of ``ml.gear_pair``.
+    oil : Lubricant
+        Oil of ``ml.oil``.
+    surfaces : SurfaceSection or sequence of two SurfaceSection
+        Surfaces of ``ml.surface``: of both gears, or of pinion and gear.
+    torque_Nm : array_like
+        Torque on the pinion (N m), scalar or 1-d.
+    speed_rpm : array_like
+        Speed of the pinion (1/min), scalar or 1-d.
+    oil_temperature_C : array_like
+        Oil temperature (°C), scalar or 1-d.
+    boundary_friction : float, optional
+        Friction coefficient of the asperities (-).
+    options, effects : mapping, optional
+        Sections ``[options]`` and ``[effects]`` of a study file.
 
+    Returns
+    -------
+    xarray.Dataset
+        Columns of a study's table with their units; each condition given as a list is a dimension.
+        ``attrs["findings"]`` lists all notes, cautions and doubts; cautions and doubts are also issued as
+        ``ml.CautionWarning``.
+
+    Raises
+    ------
+    profiles.errors.InputError
+        If an argument is invalid.
+
+    Examples
+    --------
     >>> import mixedlub as ml
     >>> pair = ml.gear_pair(teeth=(17, 26), normal_module_mm=4.2333, pressure_angle_deg=22.5, face_width_mm=14.0)
     >>> ground = ml.surface(m0_um2=0.137, m2=0.0031, m4_per_um2=0.0021)
@@ -76,11 +105,41 @@ def along_path(
     options: Mapping[str, Any] | None = None,
     effects: Mapping[str, Mapping[str, float | str]] | None = None,
 ) -> xr.Dataset:
-    """Load, film, contact and friction of one tooth pair along its path of contact, at one condition.
+    """Load, film, contact and friction of a tooth pair along the path of contact, at one condition.
 
-    The dimension is the pinion's roll angle; with a sliced face, that and the place across the face. With a friction
-    law of the options, ``friction_validity`` says where it holds.
+    Parameters
+    ----------
+    gears : Gears
+        Gear pair of ``ml.gear_pair``.
+    oil : Lubricant
+        Oil of ``ml.oil``.
+    surfaces : SurfaceSection or sequence of two SurfaceSection
+        Surfaces of ``ml.surface``: of both gears, or of pinion and gear.
+    torque_Nm : float
+        Torque on the pinion (N m).
+    speed_rpm : float
+        Speed of the pinion (1/min).
+    oil_temperature_C : float
+        Oil temperature (°C).
+    boundary_friction : float, optional
+        Friction coefficient of the asperities (-).
+    options, effects : mapping, optional
+        Sections ``[options]`` and ``[effects]`` of a study file.
 
+    Returns
+    -------
+    xarray.Dataset
+        Variables with their units over ``roll_angle_deg`` of the pinion, for a sliced face also over
+        ``face_position_mm``. ``friction_validity``: whether a friction law of ``options`` holds at the point.
+        ``attrs["findings"]`` as for ``ml.power_loss``.
+
+    Raises
+    ------
+    profiles.errors.InputError
+        If an argument is invalid, or a condition is not a single number.
+
+    Examples
+    --------
     >>> import mixedlub as ml
     >>> pair = ml.gear_pair(teeth=(17, 26), normal_module_mm=4.2333, pressure_angle_deg=22.5, face_width_mm=14.0)
     >>> ground = ml.surface(m0_um2=0.137, m2=0.0031, m4_per_um2=0.0021)
@@ -135,7 +194,7 @@ def _study(
     options: Mapping[str, Any] | None,
     effects: Mapping[str, Mapping[str, float | str]] | None,
 ) -> Study:
-    """A study of one pairing; traces are read from the current folder. ``call`` is the place that errors name."""
+    """Study of one pairing; traces are read from the current folder. ``call``: place named in errors."""
     pinion, gear = _both(surfaces, f"{call}: surfaces")
     file = {
         "schema": "mixedlub-study/1",
@@ -152,7 +211,7 @@ def _study(
 
 
 def _both(surfaces: Surfaces, where: str) -> tuple[SurfaceSection, SurfaceSection]:
-    """Surface of the pinion and of the gear."""
+    """Surfaces of pinion and gear."""
     single = isinstance(surfaces, SurfaceSection | str | PathLike)
     pair = (surfaces, surfaces) if single else surfaces
     if not isinstance(pair, Sequence) or len(pair) != 2:
@@ -164,7 +223,7 @@ def _both(surfaces: Surfaces, where: str) -> tuple[SurfaceSection, SurfaceSectio
 
 
 def _made(given: object, kind: type[Part], maker: str, where: str) -> Part:
-    """A part that a function of the package made; its name is not yet the part."""
+    """Return a part; raise an error if no function of the package made it, e.g. for the name of a part."""
     if isinstance(given, kind):
         return given
     if isinstance(given, str | PathLike) and kind is not Gears:
@@ -173,7 +232,7 @@ def _made(given: object, kind: type[Part], maker: str, where: str) -> Part:
 
 
 def _levels(values: ArrayLike, where: str) -> list[Any]:
-    """The levels of a condition, given as one number or a list of numbers."""
+    """Levels of a condition as a list."""
     rule = "must be a number or a list of numbers"
     refuse_masked(values, where)
     try:
@@ -186,5 +245,5 @@ def _levels(values: ArrayLike, where: str) -> list[Any]:
 
 
 def _plain(values: Any) -> Any:
-    """Mappings of any type as dictionaries, which is what a file has."""
+    """Nested mappings as dictionaries, as in a file."""
     return {key: _plain(value) for key, value in values.items()} if isinstance(values, Mapping) else values

@@ -1,4 +1,4 @@
-"""The figures of a study from Python: those of its page, one at a time."""
+"""Figures of a study from Python, as on its page."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 OIL, TORQUE, SPEED = LEVELS
 DRAWN = ("power_loss", "area_ratio", "film_parameter", "composite_roughness")
 NAMES = {c.name: c.output for c in FIRST if c.output in DRAWN}
-"""Columns that figures draw, each with its name inside the model."""
+"""Columns drawn in figures, each with its name inside the model."""
 LOSS, ROUGHNESS = "power_loss_W", "composite_roughness_um"
 
 
@@ -32,14 +32,32 @@ def plot(
     oil_temperature_C: float | None = None,
     pairings: str | Sequence[str] = (),
 ) -> Figure:
-    """A figure of the page of a study: a column over a condition, or the loss of all pairings over another column.
+    """Plot a column of a study over a condition, or the loss of all pairings over another column.
 
-    Over ``speed_rpm``: ``power_loss_W``, ``boundary_area_ratio`` or ``film_parameter``, a line per torque and a panel
-    per pairing, named as in ``results.to_xarray()``; left out, surfaces paired with themselves, at most six. Over
-    ``oil_temperature_C``: the loss at the highest speed. Over ``composite_roughness_um``, ``film_parameter`` or
-    ``boundary_area_ratio``: the loss, a point per pairing and a panel per torque. ``oil_temperature_C`` is one of the
-    study; left out, the lowest. Hollow marks and triangles are outside the range of the model. A notebook shows the
-    figure; ``figure.axes`` are its panels.
+    Parameters
+    ----------
+    results : Results
+        Results of ``ml.study.run``.
+    quantity : str, optional
+        ``power_loss_W``; over ``speed_rpm`` also ``boundary_area_ratio`` or ``film_parameter``.
+    over : str, optional
+        ``speed_rpm``: a line per torque and a panel per pairing. ``oil_temperature_C``: loss at the highest speed.
+        ``composite_roughness_um``, ``film_parameter`` or ``boundary_area_ratio``: a point per pairing and
+        a panel per torque.
+    oil_temperature_C : float, optional
+        Oil temperature (°C), a level of the study; default: the lowest. Not with ``over="oil_temperature_C"``.
+    pairings : str or sequence of str, optional
+        Pairings as in ``results.to_xarray()``; default: surfaces paired with themselves, at most six.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Panels in ``figure.axes``. Hollow marks and triangles are outside the range of the model.
+
+    Raises
+    ------
+    profiles.errors.InputError
+        If an argument is invalid.
     """
     refuse_other(results, Results, "the results of ml.study.run(...)", "plot: results")
     _refuse_unknown("quantity", quantity, [name for name in NAMES if name != ROUGHNESS])
@@ -76,7 +94,7 @@ def _temperature(results: Results, wanted: float | None) -> int:
 
 
 def _pairings(results: Results, wanted: str | Sequence[str]) -> np.ndarray:
-    """Indices of pairings by name, or of surfaces with themselves."""
+    """Indices of the named pairings, by default of surfaces paired with themselves."""
     if not len(wanted):
         return equal_pairings(results)
     known = [f"{a} / {b}" for a, b in results.study.pairings]

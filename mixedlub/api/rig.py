@@ -1,4 +1,4 @@
-"""Gears, oils and surfaces as a notebook states them: the keys of the files, checked by the same rules."""
+"""Gears, oils and surfaces from Python: the keys of the files, checked by the same rules."""
 
 from __future__ import annotations
 
@@ -20,12 +20,27 @@ from profiles.errors import InputError, as_path
 
 
 def gear_pair(**keys: Any) -> Gears:
-    """A pair of external gears, by the keys of the section ``[gears]``; pinion first.
+    """A pair of external gears.
 
-    Required are ``teeth``, ``normal_module_mm`` and ``face_width_mm``; tip diameters and centre distance follow from
-    the profile shift where they are not given, and ``load_sharing`` is rigid teeth. `mixedlub kinds gear_pair` lists
-    the keys. Wrong ones raise ``profiles.errors.InputError``.
+    Parameters
+    ----------
+    **keys
+        Keys of the section ``[gears]``, listed by `mixedlub kinds gear_pair`; pairs of values: pinion first. Required:
+        ``teeth`` (-), ``normal_module_mm`` (mm) and ``face_width_mm`` (mm), unless a ``preset`` sets them. By default,
+        tip diameters and centre distance follow from the profile shift, and teeth are rigid.
 
+    Returns
+    -------
+    Gears
+        Gear pair for ``ml.power_loss``, ``ml.along_path`` and ``ml.load_distribution``.
+
+    Raises
+    ------
+    profiles.errors.InputError
+        If a key is unknown, missing or outside its range.
+
+    Examples
+    --------
     >>> import mixedlub as ml
     >>> pair = ml.gear_pair(teeth=(17, 26), normal_module_mm=4.2333, pressure_angle_deg=22.5, face_width_mm=14.0)
     >>> pair.helix_angle_deg
@@ -40,11 +55,33 @@ def gear_pair(**keys: Any) -> Gears:
 
 
 def oil(named: str | None = None, /, **keys: Any) -> Lubricant:
-    """An oil by name, by its file (NAME.toml), or by base stock, with the keys of the section ``[lubricant]``.
+    """An oil by name, by file or by base stock.
 
-    What is left out is typical of its ``base`` stock; what the keys state wins over the oil of that name.
-    Doubts of the oil, as a viscosity under pressure that rises with temperature, are warnings.
+    Parameters
+    ----------
+    named : str, optional
+        Name of a shipped oil, oil file (NAME.toml), or base stock.
+    **keys
+        Keys of the section ``[lubricant]``, e.g. ``kinematic_viscosity_mm2_s`` (mm²/s) at ``temperature_C`` (°C); they
+        override the named oil. Other properties are typical of the ``base`` stock.
 
+    Returns
+    -------
+    Lubricant
+        Oil for ``ml.power_loss`` and ``ml.along_path``.
+
+    Raises
+    ------
+    profiles.errors.InputError
+        If the oil is unknown or a key is invalid.
+
+    Warns
+    -----
+    CautionWarning
+        If a property is doubtful, e.g. a viscosity under pressure that rises with temperature.
+
+    Examples
+    --------
     >>> import mixedlub as ml
     >>> ml.oil("pao", kinematic_viscosity_mm2_s=(32.0, 6.0), temperature_C=(40.0, 100.0)).base
     'pao'
@@ -60,11 +97,29 @@ def oil(named: str | None = None, /, **keys: Any) -> Lubricant:
 
 
 def surface(profile: str | PathLike[str] | Profile | None = None, **keys: Any) -> SurfaceSection:
-    """A surface, by the keys of a section ``[surfaces.NAME]``: a measured trace, or its three spectral moments.
+    """A surface: a measured trace, or three spectral moments.
 
-    The trace is a file, which must exist, one that comes with the package (``shipped:NAME``), or a
-    ``profiles.Profile``, of which the moments are taken at once.
+    Parameters
+    ----------
+    profile : str, PathLike or profiles.Profile, optional
+        File of a trace, trace of the package (``shipped:NAME``), or heights with their spacing, of which the moments
+        are computed at once.
+    **keys
+        Keys of a section ``[surfaces.NAME]``, e.g. ``cutoff_mm`` (mm) for a trace, or the moments ``m0_um2`` (µm²),
+        ``m2`` (-) and ``m4_per_um2`` (1/µm²).
 
+    Returns
+    -------
+    SurfaceSection
+        Surface for ``ml.power_loss`` and ``ml.along_path``.
+
+    Raises
+    ------
+    profiles.errors.InputError
+        If the trace is missing or a key is invalid.
+
+    Examples
+    --------
     >>> import mixedlub as ml, numpy as np
     >>> ml.surface(m0_um2=0.137, m2=0.0031, m4_per_um2=0.0021).m0_um2
     0.137
@@ -93,7 +148,7 @@ def surface(profile: str | PathLike[str] | Profile | None = None, **keys: Any) -
 
 
 def _of_trace(trace: Profile, keys: Mapping[str, Any]) -> SurfaceSection:
-    """A surface by the moments of a trace, filtered as a file of it would be."""
+    """Surface from the moments of a trace, filtered like a file."""
     for key in ("unit", "spacing"):
         if key in keys:
             raise InputError("a Profile has its own; leave it out", where=f"surface: {key}", value=keys[key])

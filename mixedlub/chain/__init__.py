@@ -1,1 +1,1 @@
-"""The chain of laws: quantities, effects, the model that runs them, and the base models."""
+"""The chain of laws: glossary, effects, the model that runs them, and the base models."""

@@ -1,4 +1,4 @@
-"""Coefficients of published laws, which their users give, and how messages and pages name them."""
+"""Coefficients of published laws given by the user, and their text in messages and pages."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Coefficient:
-    """A number of a law that its user gives; one without a default must be given."""
+    """A coefficient of a law, given by the user; required if it has no default."""
 
     name: str
     unit: str
@@ -17,7 +17,7 @@ class Coefficient:
 
 
 def described(c: Coefficient) -> str:
-    """A coefficient in words."""
+    """Meaning, unit and default of a coefficient."""
     unit = f" ({c.unit})" if c.unit not in ("", "-") else ""
     return f"{c.meaning}{unit}; " + ("must be given" if c.default is None else f"left out: {c.default:g}")
 
@@ -27,7 +27,7 @@ MOST_NAMED = 4
 
 
 def few(names: Sequence[str]) -> str:
-    """Names in a message, the first ones of many.
+    """First names of a list, as text for a message.
 
     >>> few(["a", "b"]), few(list("abcdef"))
     ('a, b', 'a, b, c, d and 2 more')

@@ -1,4 +1,4 @@
-"""What an effect is: one switchable piece of physics, written in one file, read by everything else."""
+"""Effects: switchable pieces of physics, one per file."""
 
 from __future__ import annotations
 
@@ -20,16 +20,15 @@ STAGES = ("film", "shear", "contact", "boundary", "load", "loss", "property", "l
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number an effect depends on; ``null`` is the value that switches it off, if there is one.
+    """A parameter of an effect.
 
-    ``symbol`` is the letter it has in the effect's equation, as LaTeX.
-    ``n_scan`` is how many values a search must try, where the likelihood has many separate maxima in it.
-    ``change_point`` marks a parameter at which readings jump: the likelihood is nearly flat between two readings.
-    ``kinds`` restricts the kinds of recording in which it is free (empty: all); in others it stays at its null.
-    ``published`` is the range that the laws cited in the source have, where other values are tried as well.
-    ``relative_to`` is the input that the parameter is a fraction of, if there is one.
-    ``nominal`` is the value that the cited laws have, where the prior is centred on another.
-    ``base_sd`` is the standard deviation about the null within which the base law itself is uncertain (0: exact).
+    ``null``: value that switches the effect off, if any. ``symbol``: letter in the equation, as LaTeX. ``n_scan``:
+    number of values a search must try, if the likelihood has many separate maxima in the parameter. ``change_point``:
+    readings jump at this parameter, so the likelihood is nearly flat between two readings. ``kinds``: kinds of
+    recording in which the parameter is free (empty: all); elsewhere it stays at its null. ``published``: range of the
+    laws cited in the source, if the prior is wider. ``relative_to``: input of which the parameter is a fraction, if
+    any. ``nominal``: value of the cited laws, if the prior is centred on another value. ``base_sd``: standard deviation
+    about the null within which the base law itself is uncertain (0: exact).
     """
 
     name: str
@@ -48,16 +47,16 @@ class Parameter:
 
     @property
     def usual(self) -> float:
-        """The value in the cited laws where no named one has another: ``nominal``, else the middle of the prior."""
+        """Value in the cited laws, unless a special case sets another: ``nominal``, else the prior median."""
         return self.prior.value(0.0) if self.nominal is None else self.nominal
 
     @property
     def null_value(self) -> float:
-        """The null; the prior median where there is none."""
+        """The null, else the prior median."""
         return self.prior.value(0.0) if self.null is None else self.null
 
     def described(self) -> str:
-        """Its meaning, prior and unit, the value that switches it off, and where it is free."""
+        """Meaning, prior, unit, null, and kinds of recording in which the parameter is free."""
         off = "" if self.null is None else f"; off at {self.null:g}"
         free = f"; free in recordings of {', '.join(self.kinds)}" if self.kinds else ""
         return f"{self.meaning}; {self.prior}{_unit(self.unit)}{off}{free}"
@@ -71,20 +70,19 @@ class Parameter:
 
 @dataclass(frozen=True, repr=False, kw_only=True)
 class Effect(Law):
-    """A law that changes one quantity of the chain, with all that is to be known about it.
+    """A law that changes one or more quantities of the chain, with its metadata.
 
-    ``fingerprint`` names conditions (load, speed, slide_roll_ratio, oil_temperature, roughness, sequence) and
-    says whether the effect's share of the reading, (with - without)/without, grows (``"+"``), falls (``"-"``) or
-    stays (``"0"``) as the condition grows; falling includes growing more negative. It speaks of the loss of gears and
-    the friction of discs, of what shows on neither of the first standard rig that shows it; a film, say, may have
-    the opposite sign. ``applied_after`` names effects on the same quantity that come first; ``kinds`` restricts the
-    kinds of recording (empty: all). ``prior_odds`` are relative to those of most effects, at most one.
-    ``special_cases`` are laws, published or limits, that the effect becomes at certain values of some parameters. A
-    ``descriptive`` effect follows readings without naming a cause. An ``exact_form`` is the effect's definition, so no
-    error of form is considered. ``needs_variation_in`` is a quantity at whose single value the effect would only
-    rescale the base model; it is not offered there. ``offered_within`` are ranges of base quantities in which most rows
-    of a recording must be for it to be offered. A law that adds no physics ``replaces`` a step of the base model.
-    ``valid`` is the range of all its laws, ``also_valid`` gives the range of some by the values of the parameters.
+    ``fingerprint``: for each condition (load, speed, slide_roll_ratio, oil_temperature, roughness, sequence), whether
+    the relative effect on the reading, (with - without)/without, grows (``"+"``), falls (``"-"``; also becomes more
+    negative) or stays (``"0"``) as the condition grows. It refers to the loss of gears and the friction of discs; for
+    an effect invisible in both, to the first standard rig that shows it. Another reading, e.g. a film, may have the
+    opposite sign. ``applied_after``: effects on the same quantity applied earlier. ``kinds``: kinds of recording
+    (empty: all). ``prior_odds``: relative to most effects, at most 1. ``special_cases``: laws or limits that the effect
+    equals at the given parameter values. ``descriptive``: follows readings without naming a cause. ``exact_form``: the
+    law defines the effect, so no error of form is considered. ``needs_variation_in``: the effect is not offered at a
+    single value of this quantity, where it would only rescale the base model. ``offered_within``: ranges of base
+    quantities which must contain most rows of a recording. ``replaces``: step of the base model replaced by a law that
+    adds no physics. ``valid``: range common to all its laws. ``also_valid``: range of some laws, by parameter values.
     """
 
     stage: str
@@ -112,26 +110,26 @@ class Effect(Law):
 
     @cached_property
     def reads(self) -> tuple[str, ...]:
-        """Quantities that the law needs beside those that it changes."""
+        """Arguments of the law other than the quantities it changes."""
         return self.arguments[len(self.acts_on) :]
 
     @property
     def parameter_names(self) -> tuple[str, ...]:
-        """Numbers of the law, its keyword-only arguments."""
+        """Keyword-only arguments of the law."""
         return (*(p.name for p in self.parameters), *self.fixed)
 
     def valid_at(self, values: Mapping[str, float]) -> Ranges:
-        """The range at these values of the parameters, one of which may choose a law with a narrower range."""
+        """Valid range at these parameter values, which may select a law with a narrower range."""
         return {**self.valid, **(self.also_valid(values) if self.also_valid else {})}
 
     def fixing(self, values: Mapping[str, float]) -> Effect:
-        """The same effect with some of its parameters fixed at these values, no longer among its parameters."""
+        """The effect with some parameters fixed at these values."""
         free = tuple(p for p in self.parameters if p.name not in values)
         return replace(self, parameters=free, fixed={**self.fixed, **values})
 
     @property
     def laws_within_reach(self) -> dict[str, dict[str, float]]:
-        """Special cases that the free parameters can reach, with the values that these take there."""
+        """Special cases reachable by the free parameters, with the parameter values."""
         free = {p.name for p in self.parameters}
         still_to_fix = {
             law: {name: value for name, value in values.items() if self.fixed.get(name) != value}
@@ -140,14 +138,14 @@ class Effect(Law):
         return {law: values for law, values in still_to_fix.items() if values and values.keys() <= free}
 
     def law_values(self, law: str = "") -> dict[str, float]:
-        """Every parameter as a named law has it, where none is named as the first law within reach has it."""
+        """Parameters of a named law, by default the first within reach."""
         laws = self.laws_within_reach
         fixed = laws.get(law or next(iter(laws), ""), {})
         return {p.name: fixed.get(p.name, p.usual) for p in self.parameters}
 
     @property
     def nulls(self) -> dict[str, float]:
-        """Parameter values that switch the effect off; prior medians where none does."""
+        """Parameter values that switch the effect off; the prior median of a parameter without a null."""
         return {**self.fixed, **{p.name: p.null_value for p in self.parameters}}
 
     @property
@@ -206,10 +204,9 @@ EFFECTS: Catalogue[Effect] = Catalogue(
 
 
 def effect(*, acts_on: str | tuple[str, ...], **known: Any) -> Callable[[Function], Function]:
-    """Register a law as an effect; its signature must say what the declaration says.
+    """Register a law as an effect; its signature must agree with the declaration.
 
-    The first arguments are the quantities acted on, then the quantities read, then keyword-only parameters. ``known``
-    are fields of `Effect`.
+    Arguments in order: quantities acted on, quantities read, keyword-only parameters. ``known``: fields of `Effect`.
     """
     targets = (acts_on,) if isinstance(acts_on, str) else acts_on
     given = {name: value for name, value in known.items() if value is not None}
@@ -219,7 +216,7 @@ def effect(*, acts_on: str | tuple[str, ...], **known: Any) -> Callable[[Functio
 
 
 def _checked(found: Effect) -> Effect:
-    """The effect; raise an error if declaration and signature disagree in what only effects have."""
+    """Return the effect; raise an error if its declaration and signature disagree."""
     where, begin = f"effect {found.name!r}", found.arguments[: len(found.acts_on)]
     if found.stage not in STAGES:
         raise TypeError(f"{where}: stage {found.stage!r} is none of {STAGES}")

@@ -1,4 +1,4 @@
-"""What a friction law is: one published formula for the friction coefficient, with its range and its status."""
+"""Friction laws: published formulas for the friction coefficient, with range and status."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ PLACES: Mapping[Place, str] = {"contact": "every contact point", "mesh": "one va
 NEAR_REST = 0.02
 """Judgement. Slide-to-roll ratio below which a law that diverges without sliding is flagged."""
 Limits = tuple[str | None, str, float]
-"""Coefficients that are the ends of a range, the lower one zero where none is, and their factor to SI."""
+"""Coefficients that are the lower end (None: zero) and upper end of a range, and their factor to SI."""
 
 
 class OfOil(NamedTuple):
-    """A property that an oil must have at a temperature (K): its name, factor of its coefficient to SI, tolerance."""
+    """Required oil property at a temperature (K): name, factor of its coefficient to SI, tolerance."""
 
     quantity: str
     temperature: float
@@ -34,11 +34,10 @@ class OfOil(NamedTuple):
 
 @dataclass(frozen=True, repr=False, kw_only=True)
 class FrictionLaw(Law):
-    """A friction law: the function, where it is evaluated, and what is known of its validity.
+    """A friction law with its place of evaluation and its validity.
 
-    ``limits`` names the coefficients that are the ends of a range, and their factor to SI; ``of_oil`` names properties
-    of the only oil that the law is for, zero where unknown; ``diverges`` names quantities at whose zero the law has no
-    finite value.
+    ``limits``: coefficients that are the ends of a range, with their factor to SI. ``of_oil``: properties of the only
+    oil of the law, zero if unknown. ``diverges``: quantities at whose zero friction is infinite.
     """
 
     place: Place
@@ -47,7 +46,7 @@ class FrictionLaw(Law):
     of_oil: Mapping[str, OfOil] = field(default_factory=dict)
 
     def bounded(self, given: Mapping[str, float]) -> FrictionLaw:
-        """The law with the range that its coefficients give it."""
+        """The law with the ranges set by its coefficients."""
         own = {
             name: (given[low] * factor if low else 0.0, given[high] * factor)
             for name, (low, high, factor) in self.limits.items()
@@ -56,7 +55,7 @@ class FrictionLaw(Law):
         return replace(self, valid={**self.valid, **own})
 
     def with_coefficients(self, given: Mapping[str, float]) -> Callable[..., Any]:
-        """The law with its coefficients fixed, defaults where none are given; a number becomes an array of one."""
+        """The law with fixed coefficients, by default the defaults; returns arrays, also for numbers."""
         values, law = self.values(given), self.law
 
         def fixed(*quantities: Any) -> Any:
@@ -70,29 +69,29 @@ class FrictionLaw(Law):
         return fixed
 
     def outside(self, state: Mapping[str, Any]) -> np.ndarray:
-        """Where quantities are outside the range of the source, or friction is no finite positive number."""
+        """Mask of states outside the range of the source, or with negative or infinite friction."""
         friction = np.asarray(state["friction"])
         return beyond(state, self.valid) | ~(np.isfinite(friction) & (friction >= 0.0))
 
     def divergent(self, state: Mapping[str, Any]) -> np.ndarray:
-        """Where sliding is too slow for a law that diverges without it."""
+        """Mask of states with too little sliding for a law that diverges without sliding."""
         if not self.diverges_at_pitch_point:
             return np.zeros(1, bool)
         return np.asarray(state["sliding_speed"] < NEAR_REST * state["entrainment_speed"])
 
     @property
     def diverges_at_pitch_point(self) -> bool:
-        """Whether friction grows without limit where sliding ends, as at the pitch point of gears."""
+        """Whether friction diverges at zero sliding, as at the pitch point of gears."""
         return "sliding_speed" in self.diverges
 
     @property
     def checked(self) -> tuple[str, ...]:
-        """Quantities that its flags need."""
+        """Quantities needed to flag the law."""
         slow = ("sliding_speed", "entrainment_speed") if self.diverges_at_pitch_point else ()
         return tuple(dict.fromkeys(("friction", *self.valid, *slow)))
 
     def ranges(self) -> list[str]:
-        """The range of each quantity in words."""
+        """Range of each quantity as text."""
         return [_range(name, *ends) for name, ends in self.valid.items()]
 
     def facts(self) -> Mapping[str, str]:
@@ -111,12 +110,12 @@ class FrictionLaw(Law):
 
 
 def shown_unit(quantity: str) -> str:
-    """Unit in which a page gives a quantity."""
+    """Unit of a quantity on pages."""
     return unit_and_factor(quantity)[0].removeprefix("-")
 
 
 def _range(name: str, low: float, high: float) -> str:
-    """A range in words.
+    """A range as text.
 
     >>> _range("kinematic_viscosity", 4e-6, 500e-6), _range("pitch_line_speed", 0.0, 50.0)
     ('kinematic viscosity 4 to 500 mm²/s', 'pitch line speed up to 50 m/s')
@@ -131,17 +130,17 @@ def _range(name: str, low: float, high: float) -> str:
 
 
 BASE = "tallian_mixture"
-"""The friction of the base model."""
+"""Friction law of the base model."""
 FRICTION_LAWS: Catalogue[FrictionLaw] = Catalogue(
     "mixedlub.friction", "friction law", GLOSSARY, lambda law: (law.name != BASE, list(PLACES).index(law.place))
 )
 
 
 def friction_law(title: str, place: Place, **known: Any) -> Callable[[Function], Function]:
-    """Register the function below as a friction law under its own name.
+    """Register the function below as a friction law under its name.
 
-    Its arguments are quantities of the glossary, its keyword-only arguments the coefficients; its docstring has the
-    equation and names the source. ``known`` are fields of `FrictionLaw`.
+    Its arguments are quantities of the glossary, its keyword-only arguments the coefficients; its docstring contains
+    the equation and the source. ``known``: fields of `FrictionLaw`.
     """
     return FRICTION_LAWS.declares(
         lambda law: FrictionLaw(name=law.__name__, law=law, title=title, place=place, **known)

@@ -1,4 +1,4 @@
-"""Published laws, each one function described by its decorator and docstring, and the catalogue of laws of a role."""
+"""Published laws, each a function with decorator and docstring, and the catalogue of laws of a role."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ Ranges = Mapping[str, tuple[float, float]]
 """Least and largest value of quantities, in SI."""
 DISPLAY = re.compile(r"\.\. math::(.*?)(?:\n\s*\n|\Z)", re.DOTALL)
 SOURCE = re.compile(r"Source: (.*?)(?:\n\s*\n|\Z)", re.DOTALL)
-"""Equation and source in a docstring."""
+"""Patterns of the equation and the source in a docstring."""
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
 class Law:
-    """A published law: the function, its range, and the status of its constants.
+    """A published law: function, range, and status of the constants.
 
-    ``valid`` is the range of its source in SI, by quantity; ``sources`` counts independent sources of the constants,
-    0 where none was found. Equation and source are those of the docstring where the decorator gives none.
+    ``valid``: range of the source in SI, by quantity. ``sources``: number of independent sources of the constants
+    (0: none). Equation and source default to the text of the docstring.
     """
 
     name: str
@@ -53,7 +53,7 @@ class Law:
 
     @property
     def summary(self) -> str:
-        """The first line of the docstring."""
+        """First line of the docstring."""
         return self._text.split("\n")[0]
 
     @property
@@ -65,25 +65,25 @@ class Law:
 
     @property
     def arguments(self) -> tuple[str, ...]:
-        """Quantities that the function takes."""
+        """Quantities taken by the function."""
         return tuple(n for n, a in inspect.signature(self.law).parameters.items() if a.kind is not a.KEYWORD_ONLY)
 
     @property
     def reads(self) -> tuple[str, ...]:
-        """Quantities that the law needs."""
+        """Quantities read by the law."""
         return self.arguments
 
     @property
     def parameter_names(self) -> tuple[str, ...]:
-        """Numbers of the law, its keyword-only arguments."""
+        """Keyword-only arguments of the law."""
         return tuple(c.name for c in self.coefficients)
 
     def values(self, given: Any) -> dict[str, Any]:
-        """The coefficients, defaults where none are given."""
+        """The coefficients, by default the defaults."""
         return {c.name: given.get(c.name, c.default) for c in self.coefficients}
 
     def check_given(self, given: Mapping[str, float], place: str, page: str) -> None:
-        """Raise an error for unknown and for missing coefficients; ``page`` is the command of the law's page."""
+        """Raise an error for unknown or missing coefficients; ``page``: command that shows the law."""
         known = [c.name for c in self.coefficients]
         for name in given:
             if name not in known:
@@ -95,11 +95,11 @@ class Law:
             raise InputError(rule, where=place, value=dict(given) or None)
 
     def facts(self) -> Mapping[str, str]:
-        """Lines of the page by their headings; an empty text is left out."""
+        """Lines of the page by heading; empty texts are left out."""
         return {"equation": plain_equation(self.equation), "": self.remarks, "source": self.source}
 
     def numbers(self) -> list[str]:
-        """Lines of the page on the numbers of the law, with their heading."""
+        """Lines of the page on the coefficients, with a heading."""
         width = {c.name: 2 + max(INDENT, len(c.name) + 2) for c in self.coefficients}
         lines = [entry(f"  {c.name}", described(c), width[c.name]) for c in self.coefficients]
         return ["", "coefficients", *lines] if lines else []
@@ -118,10 +118,10 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 class Catalogue(Generic[Found]):
-    """Laws of one role by name: one or more a module of a package, with those of installed plug-ins.
+    """Laws of one role by name, from the modules of a package and from installed plug-ins.
 
-    Plug-ins name their modules as entry points of the group with the name of the package. ``order`` sorts the laws,
-    by name where it is equal.
+    Plug-ins name their modules as entry points; the group is the name of the package. ``order``: sort key of the laws
+    before the name.
     """
 
     def __init__(
@@ -135,7 +135,7 @@ class Catalogue(Generic[Found]):
         self._registered: dict[str, Found] = {}
 
     def add(self, law: Found) -> None:
-        """Register a law; raise an error if its signature, its docstring and its declaration disagree."""
+        """Register a law; raise an error if signature, docstring and declaration disagree."""
         where = f"{self.role} {law.name!r}"
         known = self._registered.get(law.name)
         if known is not None and known.law.__module__ != law.law.__module__:
@@ -152,7 +152,7 @@ class Catalogue(Generic[Found]):
         self.__dict__.pop("all", None)
 
     def declares(self, make: Callable[[Any], Found]) -> Callable[[Function], Function]:
-        """The decorator that registers what ``make`` makes of the function below."""
+        """Decorator that registers the law which ``make`` creates from the function below."""
 
         def register(law: Function) -> Function:
             self.add(make(law))
@@ -168,7 +168,7 @@ class Catalogue(Generic[Found]):
         return MappingProxyType({law.name: law for law in ordered})
 
     def find(self, name: str, where: str) -> Found:
-        """The law of a name; an unknown name raises an error with the nearest known one and the place ``where``."""
+        """Return a law by name; the error for an unknown name gives the place ``where`` and the nearest known name."""
         if not isinstance(name, str) or name not in self.all:
             raise InputError(f"no such {self.role}; {nearest(name, self.all)}", where=where, value=name)
         return self.all[name]

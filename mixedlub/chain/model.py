@@ -1,4 +1,4 @@
-"""Laws in order, effects between them, and the check that every piece finds what it needs."""
+"""The model: laws in order, effects between them, and the check that every input exists."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ Parameters = Mapping[str, Mapping[str, float]]
 
 
 class ChainError(TypeError):
-    """A law or effect asks for a quantity that nothing before it provides."""
+    """A law or effect reads a quantity that no earlier step provides."""
 
 
 @dataclass(frozen=True)
 class Step:
-    """One call: the law or effect, what it writes, what it reads, and whose parameters it takes."""
+    """A call of a law, or of an effect with its parameters: outputs, inputs, and id of the effect."""
 
     outputs: tuple[str, ...]
     law: Law
@@ -32,11 +32,11 @@ class Step:
 
 
 class Model:
-    """The chain with some effects switched on; calling it runs it.
+    """The chain with some effects switched on.
 
-    ``given`` names the quantities that come from outside, ``want`` those to be returned. Only steps that
-    the wanted quantities depend on are run. The order is that of the chain; an effect acts as soon as the
-    quantities it changes and reads exist, and must do so before a law reads the changed one.
+    ``given``: input quantities. ``want``: returned quantities. Only steps on which the wanted quantities depend are
+    run, in the order of the chain; an effect acts as soon as the quantities it changes and reads exist, which must be
+    before a law reads the changed quantity.
     """
 
     def __init__(self, chain: Chain, given: Sequence[str], want: Sequence[str], effects: Sequence[Effect] = ()) -> None:
@@ -48,7 +48,7 @@ class Model:
         self._affected: dict[frozenset[int | str], tuple[_Call, ...]] = {}
 
     def __call__(self, inputs: Mapping[str, Any], parameters: Parameters | None = None) -> State:
-        """Run; ``parameters`` maps effect id to its values (its null where an effect is not named)."""
+        """Run the model; ``parameters``: values by effect id, by default the nulls of the effect."""
         state: State = dict(inputs)
         values = self._values(parameters)
         for step in self.steps:
@@ -59,9 +59,9 @@ class Model:
     def record(
         self, inputs: Mapping[str, Any], parameters: Parameters | None = None, near: Record | None = None
     ) -> Record:
-        """Run and keep every quantity; steps that nothing new reaches are taken from a run ``near`` by.
+        """Run the model and keep every quantity; unaffected steps are taken from a previous run ``near``.
 
-        The numbers are those of a full run to the last bit.
+        The numbers equal a full run to the last bit.
         """
         values = self._values(parameters)
         given = [inputs[name] for name in self.given]
@@ -84,7 +84,7 @@ class Model:
 
     @cached_property
     def _calls(self) -> tuple[_Call, ...]:
-        """The steps with a slot for every value that is ever made, so that none is overwritten."""
+        """Steps with a separate slot for every value, so that no value is overwritten."""
         latest = {name: i for i, name in enumerate(self.given)}
         calls = []
         count = len(latest)
@@ -98,7 +98,7 @@ class Model:
 
     @cached_property
     def latest(self) -> dict[str, int]:
-        """The slot of the last value of each quantity."""
+        """Slot of the last value of each quantity."""
         found = {name: i for i, name in enumerate(self.given)}
         for step, call in zip(self.steps, self._calls, strict=True):
             found.update(zip(step.outputs, call.writes, strict=True))
@@ -109,7 +109,7 @@ class Model:
         return len(self.given) + sum(len(call.writes) for call in self._calls)
 
     def _reached_by(self, changed: frozenset[int | str]) -> tuple[_Call, ...]:
-        """The steps that changed slots and effects reach."""
+        """Steps affected by changed slots or effects."""
         if changed not in self._affected:
             dirty, found = set(changed), []
             for call in self._calls:
@@ -126,7 +126,7 @@ class Model:
 
 @dataclass(frozen=True)
 class _Call:
-    """A step with the slots that it reads and writes."""
+    """A step with its input and output slots."""
 
     law: Law
     reads: tuple[int, ...]
@@ -140,24 +140,24 @@ def _result(call: Step | _Call, arguments: Sequence[Any], values: Mapping[str, M
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """A run of a model: the parameter values, and every value it was given or made, by slot."""
+    """A run of a model: parameter values, and every given or computed value by slot."""
 
     model: Model
     values: Mapping[str, Mapping[str, float]]
     made: list[Any]
 
     def __getitem__(self, name: str) -> Any:
-        """The last value of a quantity."""
+        """Last value of a quantity."""
         return self.made[self.model.latest[name]]
 
     @property
     def state(self) -> State:
-        """The last value of every quantity."""
+        """Last value of every quantity."""
         return {name: self.made[i] for name, i in self.model.latest.items()}
 
 
 def available(effect: Effect, chain: Chain, given: Sequence[str], want: str, kind: str) -> bool:
-    """Whether the effect finds all it reads in this chain and can change the wanted quantity."""
+    """Whether the chain provides all inputs of the effect and the effect can change the wanted quantity."""
     if effect.kinds and kind not in effect.kinds:
         return False
     if not {*given, *(name for name, _ in chain)}.issuperset((*effect.acts_on, *effect.reads)):
@@ -170,7 +170,7 @@ def available(effect: Effect, chain: Chain, given: Sequence[str], want: str, kin
 
 
 def _in_order(effects: Sequence[Effect]) -> tuple[Effect, ...]:
-    """Effects sorted so that each comes behind those it names in ``applied_after``."""
+    """Effects sorted by ``applied_after``."""
     waiting = sorted(effects, key=lambda e: e.id)
     ordered: list[Effect] = []
     while waiting:
@@ -183,7 +183,7 @@ def _in_order(effects: Sequence[Effect]) -> tuple[Effect, ...]:
 
 
 def _behind(one: Effect, other: Effect) -> bool:
-    """Whether one effect declares to come after another on a quantity both change."""
+    """Whether an effect must be applied after another on a quantity changed by both."""
     return other.id in one.applied_after and bool(set(one.acts_on) & set(other.acts_on))
 
 
@@ -231,7 +231,7 @@ def _check(who: str, reads: Sequence[str], known: set[str]) -> None:
 
 
 def _needed(steps: list[Step], want: Sequence[str], given: set[str]) -> tuple[Step, ...]:
-    """The steps that the wanted quantities depend on, by walking backwards."""
+    """Steps on which the wanted quantities depend, by a backward pass."""
     made = given | {name for step in steps for name in step.outputs}
     for name in want:
         if name not in made:

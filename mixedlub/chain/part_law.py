@@ -1,4 +1,4 @@
-"""What a law of a machine part is: one published formula for the drag of a bearing, a seal or a wheel."""
+"""Laws of machine parts: published formulas for the drag of a bearing, a seal or a wheel."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ GIVES: dict[Kind, str] = {
     "jet": "power (W)",
     "other": "torque (N m)",
 }
-"""Kinds of parts, each with what its laws give."""
+"""Result of the laws of each kind of part."""
 COMPUTED = {
     "shaft_speed": "angular speed of the shaft (rad/s)",
     "viscosity": "viscosity of the oil at its temperature (Pa s)",
@@ -34,7 +34,7 @@ COMPUTED = {
     "root_diameter": "root diameter by the dedendum of the gears (m)",
     "tip_diameter": "tip diameter (m)",
 }
-"""Quantities that follow from gears, oil and condition, each with its meaning."""
+"""Quantities computed from gears, oil and condition, with their meaning."""
 GIVEN = {
     "bore_diameter": ("bore_mm", 1e-3),
     "outside_diameter": ("outside_diameter_mm", 1e-3),
@@ -47,19 +47,19 @@ GIVEN = {
     "oil_flow": ("oil_flow_l_min", 1e-3 / 60.0),
     "jet_speed": ("jet_speed_m_s", 1.0),
 }
-"""Quantities that the user gives: the key of the file, and the factor from its unit to SI."""
+"""Quantities given by the user: key in the file, and factor to SI."""
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
 class PartLaw(Law):
-    """A law of a part; ``series`` names the table of the coefficients of series of bearings."""
+    """A law of a machine part; ``series``: name of its table of coefficients of bearing series."""
 
     kind: Kind
     series: str = ""
 
     @property
     def keys(self) -> tuple[str, ...]:
-        """Keys of the file that it needs."""
+        """Keys of the file needed by the law."""
         return tuple(GIVEN[name][0] for name in self.reads if name in GIVEN)
 
     def facts(self) -> Mapping[str, str]:
@@ -82,9 +82,9 @@ PART_LAWS: dict[Kind, Catalogue[PartLaw]] = {
 
 
 def part_law(kind: Kind, name: str, title: str, **known: Any) -> Callable[[Function], Function]:
-    """Register the function below as a law of a kind of parts.
+    """Register the function below as a law of a kind of part.
 
     Its arguments are quantities of `COMPUTED` and `GIVEN`, its keyword-only arguments the coefficients; its docstring
-    has the equation and names the source. ``known`` are fields of `PartLaw`.
+    contains the equation and the source. ``known``: fields of `PartLaw`.
     """
     return PART_LAWS[kind].declares(lambda law: PartLaw(name=name, kind=kind, law=law, title=title, **known))

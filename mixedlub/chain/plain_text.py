@@ -1,4 +1,4 @@
-"""Equations as a line of text: what a docstring says in TeX, for a terminal."""
+"""Conversion of TeX equations to a line of text for terminals."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from string import ascii_letters
 from textwrap import fill
 
 WIDTH, INDENT = 80, 16
-"""Characters of a line of a page, and of the names before its texts."""
+"""Width of a page and of its column of names, in characters."""
 
 SIGNS = {
     r"\qquad": "~ ",
@@ -45,7 +45,7 @@ GREEK = dict(zip(LETTERS.split(), "αβγδεζηθκλμνξπρστφφχψω�
 
 
 def plain_equation(latex: str) -> str:
-    r"""An equation's LaTeX as a line of text.
+    r"""A LaTeX equation as a line of text.
 
     >>> plain_equation(r"h \leftarrow h\,\frac{1 - a}{1 + b\,L^{0.64}}")
     'h ← h ((1 - a)/(1 + b L^0.64))'
@@ -79,7 +79,7 @@ def plain_equation(latex: str) -> str:
 
 
 def plain_symbol(symbol: str) -> str:
-    """A symbol of the glossary as equations in a line of text have it.
+    """A symbol of the glossary as text.
 
     >>> plain_symbol("omega_1"), plain_symbol("E'"), plain_symbol("epsilon_alpha")
     ('ω_1', "E'", 'ε_α')
@@ -88,7 +88,7 @@ def plain_symbol(symbol: str) -> str:
 
 
 def with_symbol(name: str, symbol: str) -> str:
-    """A name followed by the letter that stands for it.
+    """A name followed by its symbol.
 
     >>> with_symbol("coefficient", "Λ"), with_symbol("path", "")
     ('coefficient (Λ)', 'path')
@@ -97,7 +97,7 @@ def with_symbol(name: str, symbol: str) -> str:
 
 
 def _argument(text: str, start: int) -> tuple[str, int]:
-    """What a LaTeX command takes from ``start`` on, and the place after it: braces, a command or one sign."""
+    """Argument of a LaTeX command at ``start`` (braces, a command or a character), and the position after it."""
     while text[start : start + 1] == " ":
         start += 1
     if text[start] == "\\":
@@ -118,7 +118,7 @@ def _bracketed(text: str) -> str:
 
 
 def entry(name: str, text: str, indent: int = INDENT) -> str:
-    """A line of a page: a name and its text, wrapped."""
+    """A line of a page: name and wrapped text."""
     begin, rest = f"{name:{indent}}", " " * indent
     return fill(
         text, WIDTH, initial_indent=begin, subsequent_indent=rest, break_long_words=False, break_on_hyphens=False

@@ -1,4 +1,4 @@
-"""Powers of quantities as laws take them: NaN where a negative base has none, for numbers as for arrays."""
+"""Powers of quantities in laws: NaN for a negative base, for numbers as for arrays."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 
 def power(base: Any, exponent: Any) -> Any:
-    """The base to an exponent; Python's own numbers would answer complex ones, or fail at zero.
+    """The base to an exponent; Python numbers would give complex results or fail at zero.
 
     >>> with np.errstate(invalid="ignore", divide="ignore"):
     ...     [float(power(base, exponent)) for base, exponent in ((-0.5, 0.69), (0.0, -0.1), (4.0, 0.5))]

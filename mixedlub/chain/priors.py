@@ -38,7 +38,7 @@ class SinhNormal:
 
 @dataclass(frozen=True)
 class LogNormal:
-    """A lognormal prior; ``spread`` is the standard deviation of its logarithm."""
+    """A lognormal prior; ``spread``: standard deviation of the logarithm."""
 
     median: float
     spread: float
@@ -53,7 +53,7 @@ class LogNormal:
 
 @dataclass(frozen=True)
 class SignedLogNormal:
-    """A lognormal prior of the absolute value, with either sign equally probable; values near zero are improbable."""
+    """A lognormal prior of the absolute value with equally probable signs; values near zero are improbable."""
 
     median: float
     spread: float
@@ -92,7 +92,7 @@ class Uniform:
 
 @dataclass(frozen=True)
 class LogUniform:
-    """A prior whose logarithm is uniform between two bounds: every order of magnitude is equally probable."""
+    """A log-uniform prior between two bounds: every order of magnitude is equally probable."""
 
     low: float
     high: float

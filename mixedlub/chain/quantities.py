@@ -1,6 +1,6 @@
-"""The glossary: every quantity's name, symbol, unit and meaning, written in this one place.
+"""The glossary: name, symbol, unit and meaning of every quantity.
 
-Laws and effects name their arguments with these words; files name their columns with the word and a unit.
+Laws and effects use these names for their arguments; files use the name and a unit for their columns.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from mixedlub.schema.units import dimension
 
 @dataclass(frozen=True)
 class Quantity:
-    """One word of the glossary; ``unit`` is SI and fixes the dimension."""
+    """An entry of the glossary; ``unit``: SI unit, which fixes the dimension."""
 
     name: str
     symbol: str
@@ -208,11 +208,11 @@ GLOSSARY: dict[str, Quantity] = _read()
 """Quantity by name."""
 
 _SHOWN = {"m^2/s": ("mm²/s", 1e6), "m": ("µm", 1e6), "Pa": ("MPa", 1e-6)}
-"""Unit in which a page gives a quantity, and the factor from SI."""
+"""Unit of a quantity on pages, and the factor from SI."""
 _OWN_UNIT = {"load_intensity": ("N/mm²", 1e-6), "radius": ("mm", 1e3), "pitch_radius": ("mm", 1e3)}
 
 
 def unit_and_factor(quantity: str) -> tuple[str, float]:
-    """Unit in which a page gives a quantity, and the factor to it from SI."""
+    """Unit of a quantity on pages, and the factor from SI."""
     unit = GLOSSARY[quantity].unit
     return _OWN_UNIT.get(quantity) or _SHOWN.get(unit, (unit, 1.0))

@@ -1,4 +1,4 @@
-"""The ranges in which laws hold, and how far beyond one a quantity is: the one judge of every row of numbers."""
+"""Valid ranges of laws, and the grade of quantities outside them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Ends = tuple[float, float]
 Law = TypeVar("Law", bound=Callable[..., Any])
 
 GRADES = ("valid", "extrapolated", "not_quantitative", "impossible")
-"""Grades of a row: within every range, a little beyond one, far beyond one, and beyond what a contact can be."""
+"""Grades of a row: within every range, a little beyond a range, far beyond it, impossible in a contact."""
 VALID = GRADES[0]
 WORDS = ("valid", "extrapolated a little", "not quantitative", "impossible")
 _SEVERITIES = (Severity.NOTE, Severity.NOTE, Severity.CAUTION, Severity.DOUBT)
@@ -25,18 +25,18 @@ LITTLE = 2.0
 """Judgement. Factor on an end of a range up to which a law is extrapolated a little: published laws of one step, each
 fitted to a range, differ there by up to 40 %."""
 EXTRAPOLATED = "law_extrapolated"
-"""Code of a law or effect outside its range; a flag adds a colon and its name."""
+"""Code of a law or effect outside its range; flags append a colon and its name."""
 SLACK = 1e-9
-"""Rounding that a quantity may have beyond its range, over the end of it."""
+"""Rounding error accepted beyond a range, relative to its end."""
 UNBOUNDED = (-np.inf, np.inf)
 ENDLESS = 1e300
-"""Numbers from which an end of a range is left out of its text."""
+"""Ends of a range above this number are left out of its text."""
 
 _DECLARED: dict[Callable[..., Any], Mapping[str, Ends]] = {}
 
 
 def holds_within(ranges: Mapping[str, Ends]) -> Callable[[Law], Law]:
-    """Declare the range of the law below, in SI by quantity of the glossary."""
+    """Declare the range of the law below: SI values by quantity of the glossary."""
 
     def register(law: Law) -> Law:
         _DECLARED[law] = ranges
@@ -46,7 +46,7 @@ def holds_within(ranges: Mapping[str, Ends]) -> Callable[[Law], Law]:
 
 
 def declared(law: Callable[..., Any]) -> Mapping[str, Ends]:
-    """The declared range of a law, also of one that wraps it; empty where none is known."""
+    """Declared range of a law, also of a wrapped law; empty if unknown."""
     return _DECLARED.get(law) or _DECLARED.get(getattr(law, "__wrapped__", law), {})
 
 
@@ -54,8 +54,8 @@ def declared(law: Callable[..., Any]) -> Mapping[str, Ends]:
 class Limit:
     """A range of a quantity, with the code and the advice of the finding on values outside it.
 
-    ``little`` is the range of a small extrapolation, by default up to a factor `LITTLE` beyond the ends, and
-    ``possible`` that of contacts which exist.
+    ``little``: range of a small extrapolation, by default a factor `LITTLE` beyond the ends. ``possible``: range that
+    exists in contacts.
     """
 
     code: str
@@ -71,7 +71,7 @@ class Limit:
         return f"{self.code}:{self.quantity}"
 
     def grades(self, values: np.ndarray) -> np.ndarray:
-        """The place in `GRADES` of values; NaN stands for values within the range.
+        """Index in `GRADES` of each value; NaN counts as within the range.
 
         >>> ratio = Limit("a", "slide_roll_ratio", (0.1, 2.0), "", possible=(0.0, 9.0))
         >>> ratio.grades(np.array([np.nan, 2.0, 3.0, 0.04, 9.5])).tolist()
@@ -84,7 +84,7 @@ class Limit:
         return np.asarray(sum(o.astype(np.int8) for o in off))
 
     def reach(self, values: np.ndarray) -> str:
-        """The range in words, and how far beyond it the values are that are not NaN.
+        """The range, and the extremes of the values outside it, as text; NaN values are ignored.
 
         >>> Limit("a", "moes_load", (2.0, np.inf), "").reach(np.array([1.5, np.nan]))
         "Moes' load parameter of a line contact of at least 2, here down to 1.5"
@@ -104,13 +104,13 @@ class Limit:
 
 
 def of_law(name: str, ranges: Mapping[str, Ends]) -> tuple[Limit, ...]:
-    """The limits of a law or effect of a name."""
+    """Limits of a law or effect."""
     advice = f"{name} is used outside the range in which it holds"
     return tuple(Limit(f"{EXTRAPOLATED}:{name}", quantity, ends, advice) for quantity, ends in ranges.items())
 
 
 def beyond(state: Mapping[str, Any], valid: Mapping[str, Ends]) -> np.ndarray:
-    """Where any quantity is outside its range, rounding aside, or is no number.
+    """Mask of rows with a quantity outside its range (beyond rounding) or NaN.
 
     >>> beyond({"slide_roll_ratio": np.array([2.0 + 1e-12, 2.1, np.nan])}, {"slide_roll_ratio": (0.0, 2.0)}).tolist()
     [False, True, True]
@@ -126,7 +126,7 @@ def _slack(end: float) -> float:
 
 
 def farthest_beyond(value: np.ndarray, ends: Ends, where: np.ndarray) -> np.ndarray:
-    """The value that lies farthest beyond a range along the last axis, kept as one; NaN where none does.
+    """Value farthest beyond a range along the last axis, kept with length 1; NaN if all are within.
 
     >>> where = np.array([True, True, False])
     >>> farthest_beyond(np.array([[3.0, 1.5, 9.0], [1.0, 2.0, 9.0]]), (0.0, 2.0), where).tolist()
@@ -140,11 +140,11 @@ def farthest_beyond(value: np.ndarray, ends: Ends, where: np.ndarray) -> np.ndar
 
 
 Reached = Sequence[tuple[Limit, np.ndarray]]
-"""Limits, each with the values of the rows; NaN stands for a value within the range."""
+"""Limits, each with the values of the rows; NaN counts as within the range."""
 
 
 def flags(reached: Reached, shape: tuple[int, ...]) -> dict[str, np.ndarray]:
-    """Grades of rows by code, the gravest code first; codes that apply nowhere are left out.
+    """Grades of rows by code, worst code first, without codes that never apply.
 
     >>> thin, wide = Limit("a", "film", (0.0, 1.0), ""), Limit("b", "width", (0.0, 1.0), "")
     >>> {c: g.tolist() for c, g in flags([(thin, np.array([1.5, 0.5])), (wide, np.array([0.5, 3.0]))], (2,)).items()}
@@ -158,7 +158,7 @@ def flags(reached: Reached, shape: tuple[int, ...]) -> dict[str, np.ndarray]:
 
 
 def as_words(found: Mapping[str, np.ndarray], shape: tuple[int, ...]) -> tuple[np.ndarray, list[str]]:
-    """The validity of every row: an index of the given shape, and the words of each index, the grade first.
+    """Validity of every row: an index of the given shape, and the text of each index, grade first.
 
     >>> index, words = as_words({"a": np.array([1, 0, 0]), "b": np.array([2, 1, 0])}, (3,))
     >>> [words[i] for i in index]
@@ -177,7 +177,7 @@ def as_words(found: Mapping[str, np.ndarray], shape: tuple[int, ...]) -> tuple[n
 
 
 def validity(found: Mapping[str, np.ndarray], shape: tuple[int, ...]) -> np.ndarray:
-    """The words of `as_words` for every row."""
+    """Text of `as_words` for every row."""
     index, words = as_words(found, shape)
     return np.array(words, dtype=object)[index]
 
@@ -189,10 +189,10 @@ def findings(
     place: str | Callable[[str], str] = "",
     more: Mapping[str, str] | None = None,
 ) -> tuple[Finding, ...]:
-    """A finding on each code, the gravest first: how many ``rows`` it holds for, their grades, values and limits.
+    """Findings by code, worst first: number of ``rows``, grades, values and limits.
 
-    A law that is far outside its range in every row puts all numbers in doubt. ``place`` is where all or each of the
-    codes belong, ``more`` adds to the advice of some.
+    A law far outside its range in every row is a doubt about all numbers. ``place``: location of all findings, or of
+    each code. ``more``: additional advice by code.
     """
     said = []
     for code, grades in flags(reached, shape).items():
@@ -209,7 +209,7 @@ def findings(
 
 
 def _counted(grades: np.ndarray) -> str:
-    """Numbers of rows by grade, the worst first.
+    """Numbers of rows by grade, worst first.
 
     >>> _counted(np.array([0, 1, 2, 1]))
     '1 not quantitative, 2 extrapolated a little'

@@ -1,8 +1,8 @@
-"""Steps of the gear chain that a study chooses a law for, each with the laws that are offered for it.
+"""Steps of the gear chain with a choice of laws, and the laws offered for each.
 
-A law is offered where it is written, so that one file adds a law: the pure function, and above it the slot with the
-name that a study file uses and the meaning of the choice. Other packages name such a module as an entry point of the
-group ``mixedlub.laws``.
+A law is offered in its file, so that one file adds a law: the pure function, decorated by the slot with the name used
+in study files and the meaning of the choice. Other packages name such a module as an entry point of the group
+``mixedlub.laws``.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from mixedlub.chain.ranges import holds_within
 
 @dataclass(frozen=True, eq=False)
 class Slot:
-    """A step of the chain: the option that chooses its law, the quantity that it gives, and the law of the base model.
+    """A step of the chain: option that chooses its law, quantity returned, and law of the base model.
 
     The arguments of a law are quantities of the glossary; its docstring names the source.
     """
@@ -30,19 +30,19 @@ class Slot:
 
     @cached_property
     def laws(self) -> Catalogue[Law]:
-        """The laws by name in a study file, that of the base model first."""
+        """Laws by name in a study file, base model first."""
         return Catalogue("mixedlub.laws", f"{self.option} =", GLOSSARY, lambda law: law.name != self.default)
 
     def offers(
         self, name: str, meaning: str, valid: Mapping[str, tuple[float, float]] | None = None
     ) -> Callable[[Function], Function]:
-        """Offer the law below under a name, with what the choice means and where the law is known to hold."""
+        """Offer the law below under a name, with the meaning of the choice and the valid range."""
         declares = self.laws.declares(lambda law: Law(name=name, law=law, title=meaning, valid=valid or {}))
         return lambda law: holds_within(valid or {})(declares(law))
 
     @property
     def choices(self) -> Mapping[str, Law]:
-        """The laws by name, that of the base model first."""
+        """Laws by name, base model first."""
         return self.laws.all
 
 
@@ -57,7 +57,7 @@ SLIDING_POWER = Slot(
     "averaging", "sliding_power", "how the power loss is averaged over the path of contact", "mesh_integral"
 )
 SLOTS = (FILM, ASPERITY_AREA, ASPERITY_LOAD, VISCOSITY, SHEAR, FILM_FRICTION, MIXTURE, SLIDING_POWER)
-"""In the order of the chain. Slots of one option take the laws of one name."""
+"""Slots in the order of the chain. Slots of the same option take laws of the same name."""
 
 STEPS: Mapping[str, tuple[str, ...]] = {
     "contact of the asperities": ("asperities", "heights"),
@@ -69,4 +69,4 @@ STEPS: Mapping[str, tuple[str, ...]] = {
     "viscosity over temperature": (),
     "viscosity under pressure": ("viscosity_law", "viscosity_pressure"),
 }
-"""Steps that an effect may replace, each with the options that choose a law of it or a law which it contains."""
+"""Steps that an effect may replace, each with the options that choose its law or a law containing it."""

@@ -10,9 +10,9 @@ from mixedlub.ehl.solve import contacts, solve
 __all__ = ["Oil", "contacts", "example_oil", "read_oil", "solve", "wave_amplitudes"]
 
 EXAMPLE = Path(__file__).parent / "oil" / "example.toml"
-"""File of the oil that examples use."""
+"""Example file of an oil."""
 
 
 def example_oil() -> Oil:
-    """The oil that examples use."""
+    """The example oil."""
     return read_oil(EXAMPLE)

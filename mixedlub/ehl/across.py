@@ -1,4 +1,4 @@
-"""Functions across the film, from the first wall (-1/2) to the second (1/2), by their values at Chebyshev nodes."""
+"""Functions across the film, from the first wall (-1/2) to the second (1/2), at Chebyshev nodes."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 COUNT = 9
-"""Nodes across: friction within 0.05 % of that with 13."""
+"""Nodes across: friction agrees within 0.05 % with 13 nodes."""
 NODES = -0.5 * np.cos(np.pi * np.arange(COUNT) / (COUNT - 1))
-"""Places across, in film thicknesses."""
+"""Positions across, in film thicknesses."""
 _FROM_VALUES = np.linalg.inv(chebyshev.chebvander(2.0 * NODES, COUNT - 1))
 
 
 def _matrix(change: np.ndarray) -> np.ndarray:
-    """A linear change of Chebyshev coefficients, as a matrix on values at the nodes."""
+    """A linear operation on Chebyshev coefficients as a matrix on values at the nodes."""
     rows = chebyshev.chebvander(2.0 * NODES, change.shape[0] - 1)
     return rows @ change @ _FROM_VALUES
 
@@ -29,7 +29,7 @@ WEIGHTS = RUNNING[-1]
 
 
 def mean(values: np.ndarray) -> np.ndarray:
-    """Mean across the film; values that are given once are the same everywhere.
+    """Mean across the film; an axis of length one is a constant.
 
     >>> round(float(mean(NODES**4)), 9), float(mean(np.array([3.0])))   # 1/80
     (0.0125, 3.0)

@@ -1,4 +1,4 @@
-"""Contacts that Newton's method does not solve from the coarser grid: from larger sliding, and in small steps."""
+"""Second attempt at contacts without convergence from the coarser grid: from larger sliding, in small steps."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from mixedlub.ehl.oil.oil import Oil
 from mixedlub.ehl.state import State
 
 LARGEST, LEAST = 5.0, 0.01
-"""Slide-to-roll ratio from which the way to that of the contact begins, and below which it goes there at once."""
+"""Slide-to-roll ratio at which the continuation starts, and the ratio below which it jumps to the contact's."""
 FIRST, FASTEST, SLOWEST = 0.5, 0.4, 0.97
-"""Factor on the sliding in the first stage, the least one, and one so near to one that there is no way on."""
+"""Factor on the sliding in the first stage, its minimum, and the value near 1 at which the continuation fails."""
 STAGES = 40
 """Cost limit. Stages of a contact; most take six to ten."""
 
@@ -23,7 +23,7 @@ STAGES = 40
 def again(
     oil: Oil, contacts: Contacts, mesh: Grid, start: State, *, thermal: bool, far: np.ndarray
 ) -> tuple[State, np.ndarray]:
-    """The state of each contact, and whether it converged: film first, at the temperatures of the start, then heat."""
+    """State and convergence of each contact: film at the temperatures of the start, then temperatures."""
     state, found = from_larger_sliding(oil, contacts, mesh, start)
     if not thermal or not np.any(found):
         return state, found
@@ -37,10 +37,10 @@ def again(
 
 
 def from_larger_sliding(oil: Oil, contacts: Contacts, mesh: Grid, start: State) -> tuple[State, np.ndarray]:
-    """The film at the temperatures of the start, from a film that slides more, in stages.
+    """Film at the temperatures of the start, by continuation from larger sliding.
 
-    Sliding makes the flow that pressure drives nearly linear in the pressure gradient. Without it a gradient at the
-    spike drives a flow that grows as its exponential.
+    With sliding, the flow driven by pressure is nearly linear in the pressure gradient. Without sliding it grows
+    exponentially with the gradient at the pressure spike.
     """
     own = contacts.sliding / contacts.speed
     ratio = np.maximum(np.abs(own), LARGEST)
@@ -61,7 +61,7 @@ def from_larger_sliding(oil: Oil, contacts: Contacts, mesh: Grid, start: State) 
 
 
 def _film(oil: Oil, contacts: Contacts, mesh: Grid, start: State, ratio: np.ndarray) -> tuple[State, np.ndarray]:
-    """The film at a slide-to-roll ratio, with the sign of the contact's own."""
+    """Film at a slide-to-roll ratio, with the sign of the contact's ratio."""
     half = 0.5 * np.copysign(ratio, contacts.sliding) * contacts.speed
     slid = replace(
         contacts,

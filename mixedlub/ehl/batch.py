@@ -1,4 +1,4 @@
-"""Arrays of many contacts that are solved together: the first axis of every array counts the contacts."""
+"""Arrays of many contacts solved together: the first axis of every array is the contact."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ Own = TypeVar("Own", bound="Batch")
 
 @dataclass(frozen=True)
 class Batch:
-    """Base of dataclasses whose fields are arrays over contacts, or such dataclasses."""
+    """Base of dataclasses with fields that are arrays over contacts, or such dataclasses."""
 
     def take(self: Own, index: np.ndarray) -> Own:
-        """The contacts of an index or mask."""
+        """Contacts at an index or mask."""
         return self.mapped(lambda value: value[index])
 
     def put(self: Own, index: np.ndarray, values: Own) -> None:
-        """Overwrite the contacts of an index, in place."""
+        """Overwrite the contacts at an index, in place."""
         for field in fields(self):
             own, new = getattr(self, field.name), getattr(values, field.name)
             if isinstance(own, Batch):
@@ -29,7 +29,7 @@ class Batch:
                 own[index] = new
 
     def mapped(self: Own, change: Callable[[np.ndarray], np.ndarray]) -> Own:
-        """The same with every array changed."""
+        """Copy with a function applied to every array."""
         changed: dict[str, Any] = {}
         for field in fields(self):
             value = getattr(self, field.name)

@@ -1,4 +1,4 @@
-"""Shear across the film: the stress that keeps the sliding speed, and the flow that pressure drives."""
+"""Shear across the film: mean stress at the sliding speed, and flow driven by pressure."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from mixedlub.ehl.oil.oil import Oil
 MOMENTS = WEIGHTS[:, None] * NODES[:, None] ** np.arange(3)
 """Weights of the integrals of a function times s^0, s^1 and s^2."""
 STRESS_TOLERANCE, LEAST_STRESS = 1e-9, 1.0
-"""Relative tolerance of the stress, and the stress (Pa) that it is relative to at least."""
+"""Relative tolerance of the stress, and the smallest reference stress (Pa)."""
 STRESS_STEPS = 60
 
 
 @dataclass(frozen=True)
 class FilmColumn:
-    """Columns of film: oil at their pressure (Pa), temperature (K) across, gap (m), pressure gradient (Pa/m).
+    """Columns of film: oil at its pressure (Pa), temperature (K) across, gap (m), pressure gradient (Pa/m).
 
-    All but the temperature have the shape of the columns; the temperature has nodes across as its last axis.
+    All arrays have the shape of the columns; the temperature has an additional last axis of nodes across.
     """
 
     oil: Oil
@@ -34,9 +34,9 @@ class FilmColumn:
 
 @dataclass(frozen=True)
 class Sheared:
-    """Shear of columns: mean stress, shear rate across with its slopes, and stress across.
+    """Shear of columns: mean stress, shear rate across with derivatives, and stress across.
 
-    ``miss`` is the relative change of the mean stress in the last step of its search.
+    ``miss``: relative change of the mean stress in its last iteration.
     """
 
     mean_stress: np.ndarray
@@ -49,11 +49,11 @@ class Sheared:
 
 
 def sheared(column: FilmColumn, start: np.ndarray) -> Sheared:
-    r"""Shear of columns whose walls slide: the mean stress by Newton's method from a start.
+    r"""Shear of columns between sliding walls: mean stress by Newton's method from a start.
 
     .. math:: h \int_{-1/2}^{1/2} \dot\gamma(\tau_m + s h p_x)\,ds = u_2 - u_1
 
-    The search is in asinh of the sliding speed over that at the scale of the oil's stress, nearly straight.
+    The iteration uses asinh of the sliding speed over the speed at the oil's stress scale, which is nearly linear.
     """
     pressure = column.pressure[..., None]
     log, by_p, by_t = column.oil.log_viscosity(pressure, column.temperature)
@@ -81,7 +81,7 @@ def sheared(column: FilmColumn, start: np.ndarray) -> Sheared:
 
 @dataclass(frozen=True)
 class Driven:
-    """Volume flow that pressure drives, forward where pressure falls (m^2/s), with its slopes."""
+    """Volume flow driven by pressure (m^2/s, positive towards falling pressure), with derivatives."""
 
     flow: np.ndarray
     by_pressure: np.ndarray
@@ -90,7 +90,7 @@ class Driven:
 
 
 def driven(column: FilmColumn, shear: Sheared) -> Driven:
-    r"""Flow against the pressure gradient, :math:`h^2\int s\,\dot\gamma\,ds`, at the sliding speed of the walls."""
+    r"""Flow driven by the pressure gradient, :math:`h^2\int s\,\dot\gamma\,ds`, at the sliding speed of the walls."""
     gap, gradient = column.gap, column.gradient
     zeroth, first, second = np.moveaxis(shear.by_stress @ MOMENTS, -1, 0)
     pressed0, pressed1, _ = np.moveaxis(shear.by_pressure @ MOMENTS, -1, 0)
@@ -108,7 +108,7 @@ def driven(column: FilmColumn, shear: Sheared) -> Driven:
 
 
 def newtonian(column: FilmColumn) -> Driven:
-    r"""Flow of a Newtonian oil of one temperature across, :math:`h^3 p_x/(12\eta)`, without the shear of the walls."""
+    r"""Flow of an isothermal Newtonian oil, :math:`h^3 p_x/(12\eta)`, without the shear of the walls."""
     log, by_p, _ = column.oil.log_viscosity(column.pressure, column.temperature[..., 0])
     mobility = column.gap**3 * np.exp(-log) / 12.0
     flow = mobility * column.gradient

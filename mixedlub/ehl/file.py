@@ -1,4 +1,4 @@
-"""A file of contacts to solve: an oil, the bodies, and either contacts or a gear pair's path of contact."""
+"""Input file of the solver: an oil, the bodies, and either contacts or the path of contact of a gear pair."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 EXAMPLE_KEYS = ("radius_mm", "line_load_N_mm", "entrainment_speed_m_s", "slide_roll_ratio", "oil_temperature_C")
 """Keys of a contact in the template."""
 LAWS, YIELDING = laws(), yielding()
-"""Laws of asperities, and those that read a hardness."""
+"""Laws of asperities, and the laws that read a hardness."""
 STEEL_MODULUS, STEEL_RATIO = (206.0, 206.0), (0.3, 0.3)
 """Young's moduli (GPa) and Poisson's ratios of two steel bodies."""
 Positive = Annotated[Number, Field(gt=0.0)]
@@ -48,7 +48,7 @@ def _listed(value: Any) -> Any:
 
 
 Each = Annotated[tuple[Number, ...], Field(min_length=1), BeforeValidator(_listed)]
-"""A number for all contacts, or a list with one for each."""
+"""A number for all contacts, or a list with a number per contact."""
 EachPositive = Annotated[tuple[Positive, ...], Field(min_length=1), BeforeValidator(_listed)]
 
 
@@ -65,7 +65,7 @@ class Bodies(Section):
 
 
 class ContactList(Section):
-    """Each key a number for all contacts, or a list with one number for each."""
+    """Contacts: each key a number for all contacts, or a list with a number per contact."""
 
     radius_mm: EachPositive = key("reduced radius of the two bodies", example=8.69)
     line_load_N_mm: EachPositive | None = key("load per width; or hertz_pressure_GPa", None, example=[100.0, 215.0])
@@ -93,7 +93,7 @@ class ContactList(Section):
 
 
 class GearPath(Section):
-    """Places along the path of contact of `[gears]`, at one torque and speed."""
+    """Points along the path of contact of `[gears]`, at one torque and speed."""
 
     torque_Nm: Positive = key("torque on the pinion", example=100.0)
     speed_rpm: Positive = key("speed of the pinion", example=1500.0)
@@ -105,7 +105,7 @@ class GearPath(Section):
 
 
 class AsperitySection(Section):
-    """Asperities of both surfaces together, which share the load with the film."""
+    """Combined asperities of both surfaces, which share the load with the film."""
 
     m0_um2: Positive = key("variance of the heights of both surfaces", example=0.137)
     m2: Positive = key("variance of their slopes", example=0.0031)
@@ -129,14 +129,14 @@ class AsperitySection(Section):
         return self
 
     def asperities(self) -> Asperities:
-        """In SI."""
+        """The asperities in SI."""
         hardness = np.nan if self.hardness_GPa is None else self.hardness_GPa * 1e9
         moments = self.m0_um2 * 1e-12, self.m2, self.m4_per_um2 * 1e12
         return Asperities(*moments, self.law, self.boundary_friction, hardness)
 
 
 class EhlFile(Section):
-    """A file of contacts to solve."""
+    """Input file of the solver."""
 
     schema_: Literal["mixedlub-ehl/1"] = key("format of the file", example="mixedlub-ehl/1", alias="schema")
     title: str = key("title of the figures", "Line contacts", example="Twin discs")
@@ -162,9 +162,9 @@ class EhlFile(Section):
 
 @dataclass(frozen=True)
 class Problem:
-    """Contacts of a file with their oil; ``position`` is the place on a path of contact (m), NaN of others.
+    """Contacts of a file with their oil; ``position``: position on a path of contact (m), else NaN.
 
-    ``notes`` are contacts outside the range of elastic bodies, and assumptions on the oil.
+    ``notes``: contacts outside the range of elastic bodies, and assumptions on the oil.
     """
 
     file: EhlFile
@@ -175,13 +175,13 @@ class Problem:
 
     @property
     def reached(self) -> Reached:
-        """Limits of bodies that stay elastic, with the values of the contacts."""
+        """Limits of elastic bodies, with the values of the contacts."""
         limits = contact_limits({"reduced_modulus": self.contacts.modulus})
         return [(limit, self.contacts.pressure) for limit in limits if limit.quantity == "hertz_pressure"]
 
 
 def read_problem(path: Path) -> Problem:
-    """The contacts of a file, checked."""
+    """Read and check the contacts of a file."""
     file = parse(EhlFile, read_toml(path), str(path))
     with collected() as notes:
         oil = oil_of(file.oil, path.parent, f"{path}: oil")
@@ -202,7 +202,7 @@ def read_problem(path: Path) -> Problem:
 
 
 def solved_problem(problem: Problem, way: Way) -> xarray.Dataset:
-    """Solutions of the contacts, with asperities where the file has them."""
+    """Solutions of the contacts, including asperities if the file has them."""
     thermal, own = problem.file.thermal, problem.file.asperities
     if own is None:
         return way.solved(problem.oil, problem.contacts, thermal=thermal)
@@ -210,7 +210,7 @@ def solved_problem(problem: Problem, way: Way) -> xarray.Dataset:
 
 
 def _listed_contacts(file: EhlFile) -> tuple[dict[str, np.ndarray], float, np.ndarray]:
-    """Arrays in SI, E' and no position."""
+    """Arrays in SI, E' (Pa) and NaN positions of listed contacts."""
     given, bodies = file.contacts, file.bodies
     assert given is not None
     young = bodies.youngs_modulus_GPa or STEEL_MODULUS
@@ -229,7 +229,7 @@ def _listed_contacts(file: EhlFile) -> tuple[dict[str, np.ndarray], float, np.nd
 
 
 def _along_path(file: EhlFile, path: Path) -> tuple[dict[str, np.ndarray], float, np.ndarray]:
-    """Arrays in SI of the places along the path of contact, E' and their positions; the pinion is the first body."""
+    """Arrays in SI, E' (Pa) and positions (m) along the path of contact; the pinion is the first body."""
     assert file.gears is not None
     assert file.path is not None
     pair, run = gear_pair(file.gears), file.path
@@ -250,7 +250,7 @@ def _walls(oil: np.ndarray, given: tuple[float, float] | None) -> tuple[Any, Any
 
 
 def _flat(*values: Any) -> dict[str, np.ndarray]:
-    """Arrays of one length by name; both bulk temperatures come last, as a pair."""
+    """Arrays of equal length by name; the last entry is the pair of bulk temperatures."""
     names = ("radius", "line_load", "speed", "sliding_speed", "oil_temperature", "inlet")
     walls = ("first_bulk_temperature", "second_bulk_temperature")
     arrays = np.broadcast_arrays(*np.atleast_1d(*values[:-1], *values[-1]))
@@ -258,6 +258,6 @@ def _flat(*values: Any) -> dict[str, np.ndarray]:
 
 
 def examples_of_contacts() -> dict[str, Any]:
-    """Keys of `[contacts]` with values that belong together."""
+    """Keys of `[contacts]` with consistent values."""
     found = examples(ContactList)
     return {name: found[name] for name in found if name in EXAMPLE_KEYS}

@@ -1,4 +1,4 @@
-"""One step of Newton's method on pressure and approach, with a film that may break behind the contact."""
+"""A Newton step of pressure and approach, with cavitation behind the contact."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from mixedlub.ehl.oil.oil import Oil
 from mixedlub.ehl.state import State
 
 LARGEST_STEP = 0.3
-"""Largest change of a pressure in one step (Hertz pressures)."""
+"""Largest change of a pressure in a step (Hertz pressures)."""
 CLOSING = 0.8
-"""Largest share of a gap that closes in one step."""
+"""Largest relative decrease of a gap in a step."""
 LOAD = 0.5 * np.pi
 """Integral of the pressure, in Hertz units."""
 
 
 def film_step(oil: Oil, contacts: Contacts, grid: Grid, state: State) -> tuple[State, np.ndarray]:
-    """The state after one step at its temperatures, and the largest change of pressure that Newton's method wants.
+    """State after a Newton step at fixed temperatures, and the largest change of pressure before step limits.
 
-    The film is broken where pressure would be negative, and only behind the place of the largest pressure; there the
-    pressure is zero in place of the balance of mass.
+    The film cavitates at nodes with negative pressure downstream of the pressure maximum; there, zero pressure replaces
+    the balance of mass.
     """
     gap = state.gap(grid)
     now = flow(oil, contacts, grid, state, gap)
@@ -45,7 +45,7 @@ def film_step(oil: Oil, contacts: Contacts, grid: Grid, state: State) -> tuple[S
 
 
 def balance(grid: Grid, now: Flow) -> tuple[np.ndarray, np.ndarray]:
-    """Jacobian and residual of the balance of mass at each node; the last unknown is the approach."""
+    """Jacobian and residual of the mass balance at each node; the last unknown is the approach."""
     cases, nodes = grid.x.shape
     matrix, rest = np.zeros((cases, nodes + 1, nodes + 1)), np.zeros((cases, nodes + 1))
     rest[:, 1 : nodes - 1] = np.diff(now.mass, axis=1)
@@ -63,7 +63,7 @@ def balance(grid: Grid, now: Flow) -> tuple[np.ndarray, np.ndarray]:
 
 
 def broken(matrix: np.ndarray, rest: np.ndarray, pressure: np.ndarray) -> np.ndarray:
-    """Nodes where the film is broken, and both ends: those behind the largest pressure that would fall below zero."""
+    """Nodes of zero pressure: both ends, and nodes of negative pressure downstream of the maximum."""
     nodes = pressure.shape[1]
     diagonal = np.abs(np.einsum("kii->ki", matrix)[:, :nodes])
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -74,7 +74,7 @@ def broken(matrix: np.ndarray, rest: np.ndarray, pressure: np.ndarray) -> np.nda
 
 
 def hold(matrix: np.ndarray, rest: np.ndarray, held: np.ndarray, pressure: np.ndarray | float) -> None:
-    """Replace the balance of nodes by a step of their pressure to zero, in place."""
+    """Replace the mass balance of nodes by a step of their pressure to zero, in place."""
     case, node = np.nonzero(held)
     matrix[case, node] = 0.0
     matrix[case, node, node] = 1.0

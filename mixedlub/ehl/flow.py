@@ -1,4 +1,4 @@
-"""Mass flow through the cells of the grid: what the walls carry, less what pressure drives back."""
+"""Mass flow through the cells of the grid: Couette flow minus pressure-driven flow."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ Three = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 @dataclass(frozen=True)
 class Flow:
-    """Mass flow through each cell, over ambient density, entrainment speed and unit of the gap, with its slopes.
+    """Mass flow through each cell, over ambient density, entrainment speed and gap unit, with derivatives.
 
-    Slopes are in pressure and gap of three nodes: the one before the cell, the one at its start, the one at its end.
-    ``stress`` is the mean shear stress at both sides of each cell (Pa).
+    Derivatives are with respect to pressure and gap of three nodes: before the cell, at its start and at its end.
+    ``stress``: mean shear stress at both sides of each cell (Pa).
     """
 
     mass: np.ndarray
@@ -31,14 +31,14 @@ class Flow:
 
 
 def sides(nodes: np.ndarray) -> np.ndarray:
-    """Values of nodes at the start and end of each cell, on an axis before the cells."""
+    """Nodal values at the start and end of each cell, on an axis before the cells."""
     return np.stack([nodes[:, :-1], nodes[:, 1:]], axis=1)
 
 
 def flow(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.ndarray, *, central: float = 0.0) -> Flow:
-    """Mass flow of a state. Pressure drives the mean of what its gradient drives at the two sides of the cell.
+    """Mass flow of a state; the pressure-driven flow is the mean of both sides of the cell.
 
-    ``central`` is the share of central differences in what the walls carry; the rest is upwind.
+    ``central``: share of central differences in the Couette flow; the rest is upwind.
     """
     hertz = contacts.pressure[:, None]
     density, squeezed, _ = oil.density_ratio(state.pressure * hertz, across.mean(state.temperature))
@@ -66,7 +66,7 @@ def flow(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.ndarray
 
 
 def cell_columns(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.ndarray) -> FilmColumn:
-    """Columns of film at both sides of each cell, under the pressure gradient of the cell."""
+    """Columns of film at both sides of each cell, with the pressure gradient of the cell."""
     gradient = np.diff(state.pressure, axis=1) / grid.steps * (contacts.pressure / contacts.half_width)[:, None]
     return FilmColumn(
         oil,
@@ -81,7 +81,7 @@ def cell_columns(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np
 def _carried(
     grid: Grid, density: np.ndarray, squeezed: np.ndarray, gap: np.ndarray, central: float
 ) -> tuple[np.ndarray, Three, Three]:
-    """What the walls carry: density times gap, upwind of second order, central in the first cell."""
+    """Couette flow: density times gap, second-order upwind, central in the first cell."""
     lean = np.pad((1.0 - central) * 0.5 * grid.steps[:, 1:] / grid.steps[:, :-1], ((0, 0), (1, 0)))
     before, start, end = -lean, 1.0 - 0.5 * central + lean, np.full_like(lean, 0.5 * central)
     before[:, 0], start[:, 0], end[:, 0] = 0.0, 0.5, 0.5

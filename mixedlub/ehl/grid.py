@@ -1,4 +1,4 @@
-"""The graded grid of a line contact, the deflection of its solids, and the load of a pressure."""
+"""Graded grid of a line contact, deflection of its solids, and load of a pressure."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ import numpy as np
 from mixedlub.ehl.batch import Batch
 
 EDGE_CELL, GROWTH, INNER_CELL = 0.06, 0.10, 0.04
-"""Cell at the Hertz edges over the film to the power 2/3, growth of cells away from them, largest cell between them."""
+"""Cell at the Hertz edges over film^(2/3), growth of cells away from the edges, largest cell between them."""
 LEAST_INLET, INLET_FILMS = 2.5, 50.0
-"""Least distance of a flooded inlet (half widths), and the gap there over the central film."""
+"""Smallest length of a flooded inlet (half widths), and its gap relative to the central film."""
 LEAST_OUTLET = 0.25
-"""Least distance of the end of the domain behind the Hertz edge (half widths)."""
+"""Smallest length of the domain behind the Hertz edge (half widths)."""
 SAMPLES = 4001
-"""Samples of the cell size, of which the nodes are the quantiles."""
+"""Samples of the cell size; the nodes are quantiles of its distribution."""
 
 
 @dataclass(frozen=True)
 class Grid(Batch):
-    """Nodes in half widths, deflection of a pressure (b^2/R per p_h), and weights of the load."""
+    """Nodes (half widths), deflection by a pressure (b^2/R per p_h), and weights of the load."""
 
     x: np.ndarray
     kernel: np.ndarray
@@ -28,7 +28,7 @@ class Grid(Batch):
 
     @property
     def steps(self) -> np.ndarray:
-        """Distances between the nodes."""
+        """Distances between nodes."""
         return np.diff(self.x, axis=1)
 
 
@@ -40,7 +40,7 @@ def flooded_inlet(film: np.ndarray) -> np.ndarray:
 def grid(inlet: np.ndarray, film: np.ndarray, nodes: int) -> Grid:
     """Grid of each contact from its inlet (half widths), graded for a central film in b^2/R.
 
-    Every second node of 2n - 1 is a node of n, so that the two make a Richardson pair.
+    Every second node of 2n - 1 is a node of n, so that the grids make a Richardson pair.
 
     >>> fine, coarse = (grid(np.array([-3.0]), np.array([0.1]), n).x[0] for n in (241, 121))
     >>> bool(np.allclose(fine[::2], coarse))
@@ -62,7 +62,7 @@ def grid(inlet: np.ndarray, film: np.ndarray, nodes: int) -> Grid:
 
 
 def load_weights(x: np.ndarray) -> np.ndarray:
-    """Weights by which nodal pressures add up to the load: the trapezoidal rule."""
+    """Weights of nodal pressures in the load: the trapezoidal rule."""
     half = 0.5 * np.diff(x, axis=1)
     return np.pad(half, ((0, 0), (1, 0))) + np.pad(half, ((0, 0), (0, 1)))
 

@@ -1,4 +1,4 @@
-"""Energy of the film: one step of Newton's method on its temperature, at a pressure and gap."""
+"""Energy of the film: a Newton step of its temperature, at a pressure and gap."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ RESOLVED = 0.5 / (COUNT - 1)
 
 @dataclass(frozen=True)
 class Heat:
-    """Temperature (K) that the step gives, and what the film was like before it.
+    """Temperature (K) after a step, and heat flows of the film before it.
 
-    Per area of the film (W/m^2) at nodes: heat of shear, of compression, and flux into the first and second wall in the
-    cell before the node; ``carried`` is what the oil carries along per width (W/m), over that at its inlet temperature.
+    Per area of the film (W/m^2) at nodes: heat of shear, heat of compression, and flux into the first and second wall
+    in the cell before the node; ``carried``: heat convected along per width (W/m), relative to the inlet temperature.
     """
 
     temperature: np.ndarray
@@ -35,7 +35,7 @@ class Heat:
 
 
 def full_film(pressure: np.ndarray) -> np.ndarray:
-    """Nodes of unbroken film: all but those without pressure behind the largest one.
+    """Nodes before cavitation: all nodes except those without pressure downstream of the maximum.
 
     >>> full_film(np.array([[0.0, 0.2, 1.0, 0.1, 0.0, 0.0]])).astype(int)
     array([[1, 1, 1, 1, 0, 0]])
@@ -45,14 +45,14 @@ def full_film(pressure: np.ndarray) -> np.ndarray:
 
 
 def heat_step(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.ndarray, damping: np.ndarray) -> Heat:
-    r"""Temperatures after one step.
+    r"""Temperatures after a step.
 
     .. math:: \rho c\left(u\,\partial_x T + \frac{w}{h}\,\partial_s T\right) - \frac{k}{h^2}\,\partial_s^2 T
               = \tau\dot\gamma + \beta_\rho T u\,p_x,\quad \rho w = -\int_{-1/2}^{s} \partial_x(\rho h u)\,ds'
 
-    at constant s, the place across over the thickness. Heat of shear is linear in the temperatures of its column, with
-    the mean stress eliminated. A ``damping`` of one leaves out what makes a layer that is warm warmer still: then the
-    step is safe, and small.
+    at constant s, the position across over the thickness. Heat of shear is linear in the temperatures of its column,
+    with the mean stress eliminated. A ``damping`` of 1 omits the terms by which a warm layer heats up further: the step
+    is then stable and small.
     """
     column = node_columns(oil, contacts, grid, state, gap)
     shear = sheared(column, _at_nodes(state.stress))
@@ -84,14 +84,14 @@ def heat_step(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.nd
 
 
 def _at_nodes(stress: np.ndarray) -> np.ndarray:
-    """Mean of the stresses of the cells on both sides of each node; a start for the search."""
+    """Mean stress of the cells on both sides of each node; start of the iteration."""
     after = np.concatenate([stress[:, 0], stress[:, 0, -1:]], axis=1)
     before = np.concatenate([stress[:, 1, :1], stress[:, 1]], axis=1)
     return 0.5 * (before + after)
 
 
 def node_columns(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.ndarray) -> FilmColumn:
-    """Columns of film at the nodes, under the mean gradient of the cells on both sides."""
+    """Columns of film at the nodes, with the mean gradient of the cells on both sides."""
     cells = np.pad(np.diff(state.pressure, axis=1) / grid.steps, ((0, 0), (1, 1)), mode="edge")
     gradient = 0.5 * (cells[:, :-1] + cells[:, 1:])
     return FilmColumn(
@@ -105,7 +105,7 @@ def node_columns(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np
 
 
 def _shear_heat(shear: Sheared, full: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Heat of shear (W/m^3), none where the film is broken, and its slopes in the temperatures of its column."""
+    """Heat of shear (W/m^3), zero in the cavitated film, and its derivatives by the temperatures of its column."""
     stress_falls = -WEIGHTS * shear.by_temperature / (shear.by_stress @ WEIGHTS)[..., None]
     by_stress = shear.rate + shear.stress * shear.by_stress
     slopes = by_stress[..., :, None] * stress_falls[..., None, :]
@@ -115,9 +115,9 @@ def _shear_heat(shear: Sheared, full: np.ndarray) -> tuple[np.ndarray, np.ndarra
 
 
 def _crossing(flow: np.ndarray, steps: np.ndarray, thickness: np.ndarray, conductivity: float) -> np.ndarray:
-    """Heat that oil carries across the film as its layers become thinner and thicker; none through the walls.
+    """Heat convected across the film as its layers change in thickness; zero through the walls.
 
-    What a film without pressure loses or gains in flow, since it is broken, is spread over its thickness.
+    In the cavitated film the divergence of the flow is distributed over the thickness.
     """
     growth = np.pad(np.diff(flow, axis=1) / steps[..., None], ((0, 0), (1, 1), (0, 0)))
     back = leaving(flow)

@@ -1,4 +1,4 @@
-"""Solution on nested grids: a guess on the coarse one, and each finer one from the one before."""
+"""Solution on nested grids, from an initial guess on the coarsest."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from mixedlub.ehl.state import State
 from mixedlub.laws.film import moes_line
 
 NODES = (61, 121, 241)
-"""Nodes along the film on each grid; the last two make the Richardson pair."""
+"""Nodes along the film on each grid; the last two are the Richardson pair."""
 
 
 @dataclass(frozen=True)
@@ -33,10 +33,10 @@ class Level(Batch):
 
 @dataclass(frozen=True)
 class Solved:
-    """Solutions on the two finest grids, of the contacts that converged on every grid.
+    """Solutions on the two finest grids, for the contacts converged on every grid.
 
-    ``index`` numbers these contacts; ``stopped_at`` has, for every contact, the nodes of the grid on which it did not
-    converge, or zero.
+    ``index``: numbers of these contacts. ``stopped_at``: for every contact, nodes of the grid without convergence, or
+    zero.
     """
 
     index: np.ndarray
@@ -46,9 +46,9 @@ class Solved:
 
 
 def solve_levels(oil: Oil, contacts: Contacts, *, thermal: bool, nodes: tuple[int, ...] = NODES) -> Solved:
-    """Solutions on grids of so many nodes, with the energy of film and walls or at the oil temperature.
+    """Solutions on grids with the given nodes, thermal or at the oil temperature.
 
-    The first grid only gives a start to the second: it need not converge.
+    The first grid only provides a start for the second and need not converge.
     """
     film = central_film(oil, contacts)
     inlet = np.where(np.isnan(contacts.inlet), flooded_inlet(film), contacts.inlet)
@@ -77,13 +77,13 @@ def solve_levels(oil: Oil, contacts: Contacts, *, thermal: bool, nodes: tuple[in
 
 
 def central_film(oil: Oil, contacts: Contacts) -> np.ndarray:
-    """Film of an incompressible oil by Moes, in units of the gap (b^2/R)."""
+    """Film thickness of an incompressible oil by Moes, in units of the gap (b^2/R)."""
     load, material = contacts.moes(*oil.at_ambient(contacts.oil_temperature))
     return np.pi * moes_line(load, material) / (8.0 * load)
 
 
 def _guess(contacts: Contacts, mesh: Grid, film: np.ndarray, across: int) -> State:
-    """Pressure of Hertz, with the film by Moes in the middle."""
+    """Hertz pressure, with the film thickness by Moes in the centre."""
     cases, nodes = mesh.x.shape
     pressure = np.sqrt(np.maximum(1.0 - mesh.x**2, 0.0))
     pressure *= (LOAD / np.sum(mesh.weights * pressure, axis=1))[:, None]
@@ -94,7 +94,7 @@ def _guess(contacts: Contacts, mesh: Grid, film: np.ndarray, across: int) -> Sta
 
 
 def _refined(coarse: Level, mesh: Grid) -> State:
-    """The solution of a coarser grid on this one, under its load."""
+    """Solution of a coarser grid interpolated to a finer grid, at its load."""
     old, state = coarse.mesh.x, coarse.state
 
     def on_new(values: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""The contacts that are solved: bodies, load, speeds and temperatures, as arrays in SI."""
+"""Contacts to be solved: bodies, load, speeds and temperatures, as arrays in SI."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from profiles.errors import InputError
 
 
 def numbers(where: str, value: object) -> np.ndarray:
-    """A number or an array of numbers; anything else is an error at the place ``where``."""
+    """A number or an array of numbers; another value raises an error at the place ``where``."""
     try:
         return np.asarray(value, dtype=float)
     except (TypeError, ValueError):
@@ -21,7 +21,7 @@ def numbers(where: str, value: object) -> np.ndarray:
 
 
 def of_both(where: str, value: Any) -> tuple[np.ndarray, np.ndarray]:
-    """What is given for both bodies; anything but two of it is an error at the place ``where``."""
+    """A pair of values for both bodies; another length raises an error at the place ``where``."""
     try:
         first, second = value
     except (TypeError, ValueError):
@@ -31,7 +31,7 @@ def of_both(where: str, value: Any) -> tuple[np.ndarray, np.ndarray]:
 
 @dataclass(frozen=True)
 class Solids(Batch):
-    """One wall of each contact: surface speed, bulk temperature and thermal properties."""
+    """A wall of each contact: surface speed, bulk temperature and thermal properties."""
 
     speed: np.ndarray
     temperature: np.ndarray
@@ -47,7 +47,7 @@ class Solids(Batch):
 
 @dataclass(frozen=True)
 class Contacts(Batch):
-    """Line contacts: ``inlet`` is where the film starts (half widths before the centre), NaN where flooded."""
+    """Line contacts; ``inlet``: start of the film (half widths before the centre), NaN: flooded."""
 
     radius: np.ndarray
     modulus: np.ndarray
@@ -59,12 +59,12 @@ class Contacts(Batch):
 
     @property
     def speed(self) -> np.ndarray:
-        """Entrainment speed, the mean of both (m/s)."""
+        """Entrainment speed, the mean of both surface speeds (m/s)."""
         return 0.5 * (self.first.speed + self.second.speed)
 
     @property
     def sliding(self) -> np.ndarray:
-        """Speed of the second surface over the first (m/s)."""
+        """Speed of the second surface relative to the first (m/s)."""
         return self.second.speed - self.first.speed
 
     @property
@@ -83,7 +83,7 @@ class Contacts(Batch):
         return self.half_width**2 / self.radius
 
     def moes(self, viscosity: np.ndarray, pressure_viscosity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Load and lubricant parameter of Moes, M and L, at ambient pressure."""
+        """Moes' load and lubricant parameters M and L, at ambient pressure."""
         speed = 2.0 * viscosity * self.speed / (self.modulus * self.radius)
         return self.line_load / (self.modulus * self.radius * np.sqrt(speed)), (
             pressure_viscosity * self.modulus * speed**0.25

@@ -1,4 +1,4 @@
-"""Linear algebra of many matrices, of which one may be singular without spoiling the others."""
+"""Linear algebra of many matrices; a singular matrix does not affect the others."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ import numpy as np
 
 
 def times(matrix: np.ndarray, vector: np.ndarray) -> np.ndarray:
-    """Product of each matrix and its vector."""
+    """Product of each matrix with its vector."""
     return np.matmul(matrix, vector[..., None])[..., 0]
 
 
 def solved(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """Solution of each system; NaN where the matrix is singular.
+    """Solution of each system; NaN for a singular matrix.
 
     >>> solved(np.array([[[2.0]], [[0.0]]]), np.array([[1.0], [1.0]])).ravel()
     array([0.5, nan])
@@ -23,7 +23,7 @@ def solved(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
 
 
 def inverted(matrix: np.ndarray) -> np.ndarray:
-    """Inverse of each matrix; NaN where it is singular.
+    """Inverse of each matrix; NaN if singular.
 
     >>> inverted(np.array([[[2.0]], [[0.0]]])).ravel()
     array([0.5, nan])

@@ -1,4 +1,4 @@
-"""From column to column along the film: heat that the oil carries, and the walls that remember what they took."""
+"""Energy equation along the film: convection by the oil, and walls with memory."""
 
 from __future__ import annotations
 
@@ -17,14 +17,15 @@ ENDS = (0, -1)
 
 
 SLOW = 0.05
-"""Flow, over the largest across the film, below which a layer is partly one that flows back."""
+"""Velocity relative to the largest across the film, below which a layer is treated as partly reversed."""
 
 
 @dataclass(frozen=True)
 class Energy:
-    """Linear energy equation of each column but for what is carried along: matrix times temperature is what is known.
+    """Linear energy equation of each column without convection along the film: matrix times temperature = right-hand
+    side.
 
-    ``capacity`` is density, heat capacity and velocity together (W/(m^2 K)); ``before`` are the present temperatures.
+    ``capacity``: density times heat capacity times velocity (W/(m^2 K)). ``before``: present temperatures.
     """
 
     matrix: np.ndarray
@@ -35,11 +36,11 @@ class Energy:
 
 
 def march(oil: Oil, contacts: Contacts, grid: Grid, energy: Energy) -> tuple[np.ndarray, np.ndarray]:
-    """Temperatures at nodes and across (K), and the flux into the walls in the cell before each node (W/m^2).
+    """Temperatures at nodes and across (K), and flux into the walls in the cell before each node (W/m^2).
 
-    Oil enters at its own temperature and is carried both ways by upwind differences of first order: where it flows
-    back, columns are eliminated from behind, with the present temperatures of their walls. Walls are fast-moving half
-    spaces that enter at their bulk temperature.
+    Oil enters at its inlet temperature and is convected in both directions by first-order upwind differences: in
+    reverse flow, columns are eliminated from downstream, with the present temperatures of their walls. Walls are
+    fast-moving half spaces that enter at their bulk temperature.
     """
     cases, nodes = grid.x.shape
     steps = (grid.steps * contacts.half_width[:, None])[..., None]
@@ -70,7 +71,7 @@ def march(oil: Oil, contacts: Contacts, grid: Grid, energy: Energy) -> tuple[np.
 
 
 def leaving(flow: np.ndarray) -> np.ndarray:
-    """Share of each layer that flows back: zero or one but for slow layers, where the sign of a flow may still change.
+    """Share of reverse flow in each layer: 0 or 1 except in slow layers, in which the sign may still change.
 
     >>> leaving(np.array([2.0, 0.0, -1.0])).round(3)
     array([0.001, 0.5  , 0.998])
@@ -80,7 +81,7 @@ def leaving(flow: np.ndarray) -> np.ndarray:
 
 
 def _eliminated(matrix: np.ndarray, known: np.ndarray, forward: np.ndarray, backward: np.ndarray) -> np.ndarray:
-    """Inverse of each column's matrix with the columns behind it, from which oil flows back, eliminated; in place."""
+    """Inverse of each column's matrix after elimination of the downstream columns with reverse flow; in place."""
     back = np.nonzero(np.any(backward > 0.0, axis=(0, 2)))[0]
     last = int(back[-1]) if len(back) else 0
     inverse = np.empty_like(matrix)
@@ -94,7 +95,7 @@ def _eliminated(matrix: np.ndarray, known: np.ndarray, forward: np.ndarray, back
 
 
 def _wall_response(contacts: Contacts, grid: Grid, wall: Solids) -> np.ndarray:
-    r"""Rise of a wall at each node from a flux in the cell before each node (K m^2/W).
+    r"""Temperature rise of a wall at each node from a flux in the cell before each node (K m^2/W).
 
     .. math:: \Delta T(x) = \frac{1}{\sqrt{\pi k\rho c\,u}}\sum_j q_j\,2\left(\sqrt{x - x_{j-1}} - \sqrt{x - x_j}\right)
 

@@ -1,4 +1,4 @@
-"""What a solution says in SI: films, friction, temperatures, heat, and how well it keeps load, mass and energy."""
+"""Results of a solution in SI: films, friction, temperatures, heat, and balances of load, mass and energy."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ MIDDLE = COUNT // 2
 
 @dataclass(frozen=True)
 class Quantity:
-    """A result by contact: its unit and meaning."""
+    """A result per contact: unit and meaning."""
 
     unit: str
     meaning: str
@@ -43,14 +43,14 @@ QUANTITIES: Mapping[str, Quantity] = {
     "heat_to_second_wall": Quantity("W/m", "heat into the second body, per width"),
     "heat_carried": Quantity("W/m", "heat that the oil carries out of inlet and outlet, per width"),
 }
-"""Results that have an error estimate."""
+"""Results with an error estimate."""
 CHECKS: Mapping[str, Quantity] = {
     "load_imbalance": Quantity("1", "integral of the pressure over the load, less one"),
     "mass_imbalance": Quantity("1", "largest change of the mass flow over the unbroken film, by the flow"),
     "stress_imbalance": Quantity("1", "last change of the shear stress in its search, by the stress"),
     "heat_imbalance": Quantity("1", "heat that neither walls nor oil take, by the heat of shear"),
 }
-"""How well a solution keeps what must be kept."""
+"""Errors of the conserved quantities."""
 PROFILES: Mapping[str, Quantity] = {
     "position": Quantity("m", "place along the contact, from its centre in the direction of the flow"),
     "pressure": Quantity("Pa", "pressure"),
@@ -64,7 +64,7 @@ PROFILES: Mapping[str, Quantity] = {
 
 
 def measures(oil: Oil, contacts: Contacts, level: Level, *, thermal: bool) -> dict[str, np.ndarray]:
-    """Quantities, checks and profiles of solutions; those of heat are NaN of an isothermal one."""
+    """Quantities, checks and profiles of solutions; thermal quantities are NaN for isothermal solutions."""
     mesh, state = level.mesh, level.state
     gap = state.gap(mesh)
     full = full_film(state.pressure)
@@ -109,7 +109,7 @@ def measures(oil: Oil, contacts: Contacts, level: Level, *, thermal: bool) -> di
 
 
 def _rolling_power(oil: Oil, contacts: Contacts, level: Level, gap: np.ndarray, full: np.ndarray) -> np.ndarray:
-    """Pressure gradient times the flow that it drives, by cell: heat of shear beyond that of sliding."""
+    """Pressure gradient times pressure-driven flow by cell: heat of shear in addition to sliding."""
     cells = cell_columns(oil, contacts, level.mesh, level.state, gap)
     moved = driven(cells, sheared(cells, level.state.stress)).flow
     rise = np.diff(level.state.pressure, axis=1) * contacts.pressure[:, None]
@@ -117,16 +117,16 @@ def _rolling_power(oil: Oil, contacts: Contacts, level: Level, gap: np.ndarray, 
 
 
 def _spread(mass: np.ndarray, full: np.ndarray) -> np.ndarray:
-    """Largest change of the mass flow between cells of unbroken film, by its mean."""
+    """Range of the mass flow over cells of full film, relative to its mean."""
     unbroken = full[:, 1:]
     low, high = np.where(unbroken, mass, np.inf), np.where(unbroken, mass, -np.inf)
     return (np.max(high, axis=1) - np.min(low, axis=1)) / np.mean(mass, axis=1, where=unbroken)
 
 
 def _heat_balance(contacts: Contacts, level: Level, heat: Heat, full: np.ndarray) -> np.ndarray:
-    """Heat into both walls, heat carried out, and what is missing by the heat of shear.
+    """Heat into both walls, heat convected out, and relative error of the balance with the heat of shear.
 
-    Over the unbroken film but for its first cell: in a later film the oil is not all there is between the walls.
+    Taken over the full film without its first cell: oil fills only part of the gap in the cavitated film.
     """
     cells = level.mesh.steps * contacts.half_width[:, None]
     inside = full[:, 1:] * (np.arange(cells.shape[1]) > 0)

@@ -1,8 +1,8 @@
-r"""Mixed contacts: a solved film and asperities that carry the load together.
+r"""Mixed contacts: a solved film and asperities share the load.
 
-The film carries the share :math:`1/\gamma` of the load. After Johnson, Greenwood and Poon (Wear 19 (1972) 91) it is
-that of a smooth contact with this load and the modulus :math:`E'/\gamma`, whose width is the same; here that contact is
-solved, and not taken from a film law. Asperities carry the rest at its central film, by a law that studies choose from.
+The film carries the share :math:`1/\gamma` of the load. After Johnson, Greenwood and Poon (Wear 19 (1972) 91) it equals
+the film of a smooth contact with this load and the modulus :math:`E'/\gamma`, hence the same width; here that contact
+is solved, not taken from a film law. Asperities carry the rest at the central film, by a law that studies choose from.
 """
 
 from __future__ import annotations
@@ -28,22 +28,22 @@ if TYPE_CHECKING:
     import xarray
 
 MISSED_LOAD = 1e-7
-"""Largest part of the load by which film and asperities together may miss it."""
+"""Largest relative error of the load carried by film and asperities together."""
 _MOST_SOLUTIONS = 15
 """Cost limit. Solutions of the film's contact; most mixed contacts take four to six."""
 _LEAST, _MOST = -600.0, 7.0
-"""Logits of the asperities' share: none that a number tells from zero, and all but a thousandth of the load."""
+"""Logits of the asperities' share: numerically zero, and all but a thousandth of the load."""
 _FURTHEST = 3.0
-"""Largest change of the logit in one step."""
+"""Largest change of the logit in a step."""
 _READ = ("m0", "m2", "m4", "reduced_modulus", "hardness", "film_thickness")
-"""What laws of asperities read here."""
+"""Quantities available to laws of asperities."""
 
 
 @dataclass(frozen=True)
 class Asperities:
-    """Roughness of both surfaces together, as moments of the profile in SI, the law of asperities, and their friction.
+    """Composite roughness (moments of the profile in SI), law of the asperities, and their friction coefficient.
 
-    ``hardness`` (Pa) is that of the softer body, NaN where the law reads none.
+    ``hardness`` (Pa): of the softer body; NaN if the law does not read it.
     """
 
     m0: float
@@ -54,7 +54,7 @@ class Asperities:
     hardness: float = np.nan
 
     def carried(self, film: np.ndarray, modulus: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Mean pressure that asperities carry at a film thickness (Pa), and the real area over the nominal one."""
+        """Mean pressure of the asperities at a film thickness (Pa), and ratio of real to nominal area."""
         own = {
             "area_ratio": ASPERITY_AREA.choices[self.law].law,
             "asperity_pressure": ASPERITY_LOAD.choices[self.law].law,
@@ -67,7 +67,7 @@ class Asperities:
 
 
 def laws() -> tuple[str, ...]:
-    """Laws of asperities that read what is known here."""
+    """Laws of asperities that read only available quantities."""
     made = {name for name, _ in ASPERITIES}
     both = [name for name in ASPERITY_LOAD.choices if name in ASPERITY_AREA.choices]
 
@@ -78,12 +78,12 @@ def laws() -> tuple[str, ...]:
 
 
 def yielding() -> tuple[str, ...]:
-    """Those of them that read the hardness."""
+    """Laws of `laws` that read the hardness."""
     return tuple(n for n in laws() if "hardness" in inspect.signature(ASPERITY_LOAD.choices[n].law).parameters)
 
 
 def solve_mixed(oil: Oil, contacts: Contacts, asperities: Asperities, *, thermal: bool, way: Way) -> xarray.Dataset:
-    """Solutions of the film's contact, with what film and asperities carry, the real area, and friction of both.
+    """Solutions of mixed contacts: load of film and asperities, real area, and friction of both.
 
     Friction of the asperities heats neither film nor bodies.
     """
@@ -114,7 +114,7 @@ def solve_mixed(oil: Oil, contacts: Contacts, asperities: Asperities, *, thermal
 
 
 def _film_contacts(contacts: Contacts, share: np.ndarray) -> Contacts:
-    """The film's own contacts where asperities carry a share of the load."""
+    """Contacts with the film's share of the load and the reduced modulus."""
     return replace(contacts, line_load=contacts.line_load * (1.0 - share), modulus=contacts.modulus * (1.0 - share))
 
 
@@ -123,7 +123,7 @@ def _share(film: np.ndarray, mean: np.ndarray, contacts: Contacts, asperities: A
 
 
 def _start(full: np.ndarray, mean: np.ndarray, contacts: Contacts, asperities: Asperities) -> np.ndarray:
-    """Share of the asperities on a film that grows by the exponent of the base law."""
+    """Asperities' share for a film that grows by the exponent of the base law."""
     film = balanced_film(
         full, mean, sharing_exponent(dowson_toyoda), lambda h: asperities.carried(h, contacts.modulus)[0]
     )
@@ -131,7 +131,7 @@ def _start(full: np.ndarray, mean: np.ndarray, contacts: Contacts, asperities: A
 
 
 def _exponent(now: tuple[np.ndarray, ...], before: tuple[np.ndarray, ...], last: np.ndarray) -> np.ndarray:
-    """Growth of the solved film with whole over film load, from the last two solutions."""
+    """Exponent of the film over the ratio of total to film load, from the last two solutions."""
     (film, growth), (film_before, growth_before) = now, before
     moved = growth - growth_before
     far = np.abs(moved) > 1e-7
@@ -148,7 +148,7 @@ def _step(
     contacts: Contacts,
     asperities: Asperities,
 ) -> np.ndarray:
-    """Newton's step of the logit of the share, from the difference of the logarithms of both sides."""
+    """Newton step of the logit of the share, from the logarithmic difference of both sides."""
     thicker = _share(film * 1.001, mean, contacts, asperities)
     with np.errstate(divide="ignore", invalid="ignore"):
         falls = np.minimum(np.log(thicker / wanted) / np.log(1.001), 0.0)
@@ -157,14 +157,14 @@ def _step(
 
 
 def _moved(share: np.ndarray, step: np.ndarray) -> np.ndarray:
-    """The share after a step of its logit."""
+    """Share after a step of its logit."""
     with np.errstate(divide="ignore"):
         logit = np.clip(np.log(share) - np.log1p(-share) + step, _LEAST, _MOST)
     return np.asarray(1.0 / (1.0 + np.exp(-logit)))
 
 
 def _replaced(data: xarray.Dataset, rows: np.ndarray, new: xarray.Dataset) -> xarray.Dataset:
-    """The data with some rows of new ones."""
+    """Data with rows replaced by new data."""
     found = data.copy(deep=True)
     for name, values in new.items():
         found[name].to_numpy()[rows] = values.to_numpy()
@@ -177,7 +177,7 @@ SHARES: Mapping[str, str] = {
     "area_ratio": "real area of contact over the nominal one",
     "mixed_friction_coefficient": "friction of film and asperities, by the whole load",
 }
-"""Results that a mixed contact has besides those of its film."""
+"""Results of a mixed contact in addition to those for its film."""
 
 
 def _with_shares(

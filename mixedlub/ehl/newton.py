@@ -1,4 +1,4 @@
-"""Steps of film and temperatures in turn, until each contact has converged."""
+"""Alternating steps of film and temperatures until each contact has converged."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ from mixedlub.ehl.oil.oil import Oil
 from mixedlub.ehl.state import State
 
 PRESSURE_TOLERANCE, HOT_PRESSURE_TOLERANCE = 1e-8, 1e-6
-"""Change of pressure that ends the steps (Hertz pressures), without and with temperature."""
+"""Converged change of pressure (Hertz pressures): isothermal, thermal."""
 TEMPERATURE_TOLERANCE = 0.01
-"""Change of temperature that ends the steps (K)."""
+"""Converged change of temperature (K)."""
 WARM_START = 0.3
-"""Change of pressure below which temperatures follow the film (Hertz pressures)."""
+"""Change of pressure below which temperatures are updated (Hertz pressures)."""
 LARGEST_HEATING = 30.0
-"""Largest change of a temperature in one step (K)."""
+"""Largest change of a temperature in a step (K)."""
 DAMPED_ABOVE = 12.0
 """Change of temperature above which a step is damped (K)."""
 GROWN, LESS = 0.9, 0.5
-"""A change larger than this share of the one before it makes the share of a step that is taken less."""
+"""If a change exceeds this share of the previous change, the step is reduced by the second factor."""
 
 
 @dataclass(frozen=True)
 class Pace:
-    """Most steps; the least share of a step of the temperatures that is taken, and how fast that share recovers."""
+    """Largest number of steps, smallest relaxation of the temperature step, and its growth per step."""
 
     steps: int
     least: float
@@ -38,12 +38,12 @@ class Pace:
 
 
 QUICK, PATIENT, SHORT = Pace(80, 0.25, 1.4), Pace(300, 0.1, 1.1), Pace(30, 0.25, 1.4)
-"""Of most contacts, which need five to ten steps; of those that these do not solve; of one stage of many."""
+"""Pace for most contacts (5 to 10 steps), for contacts that fail with it, and for a stage of a continuation."""
 
 
 @dataclass(frozen=True)
 class _Run(Batch):
-    """Contacts that have not converged, and how their steps went: last changes, and share of the heat step taken."""
+    """Unconverged contacts with their history: last changes, and relaxation of the temperature step."""
 
     contacts: Contacts
     mesh: Grid
@@ -57,7 +57,7 @@ class _Run(Batch):
 def converge(
     oil: Oil, contacts: Contacts, mesh: Grid, start: State, *, thermal: bool, far: np.ndarray, pace: Pace = QUICK
 ) -> tuple[State, np.ndarray]:
-    """The state of each contact after its last step, and whether it converged, from a start that is ``far`` or near."""
+    """State of each contact after its last step, and convergence, from a start that is ``far`` or near."""
     cases = len(contacts.radius)
     state, converged = start.mapped(np.copy), np.zeros(cases, dtype=bool)
     unknown = np.full(cases, np.inf)
@@ -83,9 +83,9 @@ def converge(
 
 
 def _warmed(oil: Oil, run: _Run, pace: Pace) -> _Run:
-    """After one step of the temperatures, where the film is near its own solution.
+    """State after a temperature step, taken if the film is nearly converged.
 
-    A large step is taken damped: at once where the last one was large and the start is far, else after a look.
+    A large step is damped: at once if the previous step was large and the start is far, otherwise after a trial.
     """
     gap = run.state.gap(run.mesh)
     damped = (run.temperature_change > DAMPED_ABOVE) & run.far
@@ -105,6 +105,6 @@ def _warmed(oil: Oil, run: _Run, pace: Pace) -> _Run:
 
 
 def _wanted(oil: Oil, run: _Run, gap: np.ndarray, damped: np.ndarray) -> np.ndarray:
-    """Change of the temperatures that a step wants (K)."""
+    """Change of temperature requested by a step (K)."""
     found = heat_step(oil, run.contacts, run.mesh, run.state, gap, damped.astype(float))
     return found.temperature - run.state.temperature

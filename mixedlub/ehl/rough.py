@@ -1,4 +1,4 @@
-"""Roughness in the film to first order: how much of a wave on a surface is left in the contact."""
+"""Roughness in the film to first order: amplitude of a surface wave in the contact."""
 
 from __future__ import annotations
 
@@ -17,28 +17,27 @@ from profiles.errors import refuse_other
 WAVE_NODES = (61, 121, 241, 481, 961)
 """Nodes of the grids: the finest has 16 cells on a wave of an eighth of the half width."""
 CELLS = 12
-"""Fewest cells on a wave: with fewer, its amplitude is more than 5 % too small."""
+"""Smallest number of cells on a wave: with fewer, the amplitude is more than 5 % too small."""
 INNER = 0.8
-"""Half width of the middle of the contact, over that of Hertz."""
+"""Half width of the central region of the contact, over the Hertz half width."""
 CENTRAL = 2.0 / 3.0
-"""Share of central differences that makes the upwind ones of third order, so that short waves are carried undamped."""
+"""Share of central differences for third-order upwind differences, which do not damp short waves."""
 
 
 def wave_amplitudes(
     oil: Oil, contacts: Contacts, wavelengths: np.ndarray, wave_speed: np.ndarray | None = None
 ) -> np.ndarray:
-    r"""Amplitude of a low wave in the film, over that on the surface; a row a contact.
+    r"""Amplitude of a low wave in the film, relative to the surface; a row per contact.
 
-    Wavelengths (m) run along the contact; the wave moves with its surface, at ``wave_speed`` (m/s), by default that of
-    entrainment. The isothermal balance of mass with its storage is linearised about the smooth solution,
+    Wavelengths (m) run along the contact; the wave moves with its surface at ``wave_speed`` (m/s), by default the
+    entrainment speed. The transient isothermal mass balance is linearised about the smooth solution,
 
     .. math:: h' = a\,e^{i\omega(x - vt)} + \delta'(p') + h_0',\qquad
               \partial_x q' - i\omega v\,(\rho h)' = 0,\qquad \int p'\,dx = 0
 
-    and the amplitude is its mean over the inner four fifths of the contact. NaN where there is no smooth solution, and
-    where the wave has fewer than 12 cells of the grid, below about a tenth of the half width.
-    Source: the equations of C. H. Venner, F. Couhier, A. A. Lubrecht,
-    J. A. Greenwood, Tribology Series 32 (1997) 103, at low amplitudes.
+    and the amplitude is its mean over the inner four fifths of the contact. NaN without a smooth solution, and for
+    waves with fewer than 12 cells of the grid, below about a tenth of the half width. Source: the equations of C. H.
+    Venner, F. Couhier, A. A. Lubrecht, J. A. Greenwood, Tribology Series 32 (1997) 103, at low amplitudes.
     """
     refuse_other(oil, Oil, "ml.ehl.read_oil(...)", "ehl.wave_amplitudes: oil")
     refuse_other(contacts, Contacts, "ml.ehl.contacts(...)", "ehl.wave_amplitudes: contacts")
@@ -55,7 +54,7 @@ def wave_amplitudes(
 
 
 def _amplitude(oil: Oil, contacts: Contacts, level: Level, wave: np.ndarray, speed: np.ndarray) -> np.ndarray:
-    """Mean amplitude in the middle for one wave number (per half width) a contact."""
+    """Mean amplitude in the centre for a wave number (per half width) per contact."""
     mesh, state = level.mesh, level.state
     gap = state.gap(mesh)
     now = flow(oil, contacts, mesh, state, gap, central=CENTRAL)
@@ -86,7 +85,7 @@ def _amplitude(oil: Oil, contacts: Contacts, level: Level, wave: np.ndarray, spe
 
 
 def _carried_wave(slopes: tuple[np.ndarray, np.ndarray, np.ndarray], surface: np.ndarray) -> np.ndarray:
-    """Change of the flow through each cell by a wave in the gap."""
+    """Change of the flow through each cell due to a wave in the gap."""
     before, start, end = slopes
     earlier = np.pad(surface[:, :-2], ((0, 0), (1, 0)))
     return before * earlier + start * surface[:, :-1] + end * surface[:, 1:]

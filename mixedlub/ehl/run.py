@@ -1,4 +1,4 @@
-"""Many contacts in parts: shared between processors or a cluster, with progress, and kept for a run that is stopped."""
+"""Solution of many contacts in parts: parallel or on a cluster, with progress, saved for resumption."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ from mixedlub.running.origin import code_fingerprint
 from mixedlub.running.parallel import as_done
 
 BATCH = 16
-"""Contacts that are solved together: more of them fill no processor better, and their matrices leave its cache."""
+"""Contacts solved together: larger batches fill no processor better, and their matrices exceed its cache."""
 Rows = dict[str, np.ndarray]
 Solver = Callable[[Contacts], Rows]
-"""Results of contacts that are solved together."""
+"""Results of contacts solved together."""
 PRESSURES, TEMPERATURES, STRESSES = (0.0, 3e8, 1e9, 3e9), (280.0, 330.0, 400.0), (1e3, 1e6, 1e7)
-"""Pressures (Pa), temperatures (K) and stresses (Pa) at which laws of an oil are told apart."""
+"""Pressures (Pa), temperatures (K) and stresses (Pa) at which laws of an oil are identified."""
 
 
 def run_parts(
@@ -37,10 +37,10 @@ def run_parts(
     scheduler: str | None = None,
     progress: Callable[[int, int], None] = lambda done, of: None,
 ) -> Rows:
-    """Results of all contacts.
+    """Results of all contacts, computed on this machine or on the workers of a Dask scheduler.
 
-    Parts in the folder ``keep`` are not solved again; others are kept there. On the workers of the Dask scheduler at
-    an address, or on the processors of this machine. ``progress`` gets the parts done, and all.
+    Parts in the folder ``keep`` are reused; new parts are saved there. ``progress``: called with the numbers of
+    completed parts and of all parts.
     """
     count = len(contacts.radius)
     parts = [np.arange(start, min(start + BATCH, count)) for start in range(0, count, BATCH)]
@@ -61,7 +61,7 @@ def run_parts(
 def _solved(
     solve: Solver, contacts: Contacts, parts: Sequence[np.ndarray], todo: Sequence[int], scheduler: str | None
 ) -> Iterator[tuple[int, Rows]]:
-    """Parts and their results, in order of completion."""
+    """Numbers and results of parts, in order of completion."""
     if scheduler is not None:
         yield from on_cluster(_one, (solve, contacts, parts), todo, scheduler)
         return
@@ -81,7 +81,7 @@ def _file(folder: Path, place: int) -> Path:
 
 
 def _kept(folder: Path | None, parts: Sequence[np.ndarray]) -> Iterator[tuple[int, Rows]]:
-    """Parts that an earlier run finished."""
+    """Parts completed by an earlier run."""
     for place, part in enumerate(parts):
         if folder is None or not _file(folder, place).is_file():
             continue
@@ -95,7 +95,7 @@ def _kept(folder: Path | None, parts: Sequence[np.ndarray]) -> Iterator[tuple[in
 
 
 def parts_folder(out: Path, oil: Oil, contacts: Contacts, *, thermal: bool) -> Path:
-    """Folder next to a result for the parts of these contacts, of this oil and this code alone."""
+    """Folder next to a result for the parts of these contacts, oil and code."""
     digest = hashlib.sha256(f"{code_fingerprint()}{thermal}".encode())
     for values in (*_of_oil(oil), *_of_batch(contacts)):
         digest.update(np.ascontiguousarray(values, dtype=float).tobytes())
@@ -109,7 +109,7 @@ def _of_batch(batch: Batch) -> Iterator[np.ndarray]:
 
 
 def _of_oil(oil: Oil) -> Iterator[np.ndarray]:
-    """Numbers that tell an oil from another: its laws at some places, and its constants."""
+    """Numbers that identify an oil: values of its laws, and its constants."""
     pressure, temperature = np.meshgrid(np.array(PRESSURES), np.array(TEMPERATURES))
     with np.errstate(all="ignore"):
         yield from oil.log_viscosity(pressure, temperature)

@@ -1,4 +1,4 @@
-"""Line contacts solved many at once, as a data set in SI with a status and an error for each."""
+"""Line contacts solved together, as a data set in SI with a status and an error for each contact."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ if TYPE_CHECKING:
     import xarray
 
 CONVERGED, DIVERGED = "converged", "no solution"
-"""Words of the status."""
+"""Values of the status."""
 LARGEST_STRESS_IMBALANCE = 1e-6
-"""Change of the shear stress in its last step above which a contact has no solution."""
+"""Change of the shear stress in its last iteration above which a contact has no solution."""
 FILM_SHARE = 0.5
 """Error of a film over the difference of the two finest grids: a third by Richardson, for second order, times 1.5."""
 Each = float | Sequence[float] | np.ndarray
@@ -35,9 +35,9 @@ Pair = tuple[Each, Each]
 def solve(oil: Oil, *, thermal: bool = True, **given: Any) -> xarray.Dataset:
     """Film, friction and temperatures of smooth line contacts in SI, by the full equations.
 
-    Arguments are those of `contacts`. Isothermal where not ``thermal``: then friction leaves out all heat. The result
-    has one row a contact, NaN with the status ``no solution`` where the steps did not converge; ``NAME_error``
-    estimates the relative error of NAME (of a rise, for temperatures) from grids of 121 and 241 nodes.
+    Arguments as for `contacts`; without ``thermal``, friction neglects all heat. The result has a row per contact, NaN
+    with the status ``no solution`` without convergence; ``NAME_error``: relative error of NAME (of the rise for
+    temperatures), estimated from grids of 121 and 241 nodes.
 
     >>> import mixedlub as ml
     >>> oil = ml.ehl.example_oil()
@@ -69,10 +69,10 @@ def contacts(
 ) -> Contacts:
     """Line contacts from numbers or arrays in SI that broadcast.
 
-    Reduced radius (m), load per width (N/m), mean speed and speed of the second surface over the first (m/s),
-    temperature of the oil and of both bodies (K; bodies as the oil where left out), place of the inlet meniscus (m
-    before the centre; NaN is flooded); of both bodies: moduli (Pa), thermal conductivity (W/(m K)), density (kg/m^3)
-    and specific heat (J/(kg K)), of steel where left out.
+    Reduced radius (m), load per width (N/m), mean speed and speed of the second surface relative to the first (m/s),
+    temperature of the oil and of both bodies (K; default: oil temperature), position of the inlet meniscus (m before
+    the centre; NaN: flooded); for both bodies: moduli (Pa), thermal conductivity (W/(m K)), density (kg/m^3) and
+    specific heat (J/(kg K)), default: steel.
     """
     given = {"radius": radius, "line_load": line_load, "speed": speed, "oil_temperature": oil_temperature}
     given |= {"sliding_speed": sliding_speed, "inlet": inlet}
@@ -92,7 +92,7 @@ def contacts(
 
 
 def build_contacts(flat: dict[str, np.ndarray], modulus: float, solids: dict[str, tuple[float, float]]) -> Contacts:
-    """Contacts of arrays of one length."""
+    """Contacts from arrays of equal length."""
     one = np.ones_like(flat["radius"])
     walls = [
         Solids(
@@ -110,7 +110,8 @@ def build_contacts(flat: dict[str, np.ndarray], modulus: float, solids: dict[str
 
 
 def check(oil: Oil, contacts: Contacts, *, thermal: bool) -> None:
-    """Refuse contacts without a solution, or outside the range of the oil's file, by the first wrong number."""
+    """Raise an error for contacts without a solution or outside the range of the oil's file, by the first wrong
+    number."""
     if not len(contacts.radius):
         raise InputError("at least one is needed", where="contacts")
     with np.errstate(invalid="ignore"):
@@ -155,7 +156,7 @@ def solved(
     scheduler: str | None = None,
     progress: Callable[[int, int], None] = lambda done, of: None,
 ) -> xarray.Dataset:
-    """Solutions of contacts that are checked; arguments that say where and how it runs are those of `run_parts`."""
+    """Solutions of checked contacts; ``keep``, ``scheduler`` and ``progress`` as in `run_parts`."""
     import xarray
 
     solver = partial(_rows, oil, thermal=thermal)
@@ -172,7 +173,7 @@ def solved(
 
 @dataclass(frozen=True)
 class Way:
-    """Where and how contacts are solved: folder for parts, Dask scheduler, and a function that gets the progress."""
+    """Mode of computation: folder for parts, Dask scheduler, and function for the progress."""
 
     folder: Path | None = None
     scheduler: str | None = None
@@ -185,7 +186,7 @@ class Way:
 
 
 def _rows(oil: Oil, contacts: Contacts, *, thermal: bool) -> dict[str, np.ndarray]:
-    """Results of one batch."""
+    """Results of a batch."""
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         found = solve_levels(oil, contacts, thermal=thermal)
         kept = contacts.take(found.index)
@@ -202,7 +203,7 @@ def _rows(oil: Oil, contacts: Contacts, *, thermal: bool) -> dict[str, np.ndarra
 
 
 def _filled(found: Solved, values: np.ndarray) -> np.ndarray:
-    """Values of the contacts that converged; NaN for the others."""
+    """Values of the converged contacts; NaN for the others."""
     filled = np.full((len(found.stopped_at), *values.shape[1:]), np.nan)
     filled[found.index] = values
     filled[found.stopped_at > 0] = np.nan
@@ -210,7 +211,7 @@ def _filled(found: Solved, values: np.ndarray) -> np.ndarray:
 
 
 def _error(name: str, fine: np.ndarray, coarse: np.ndarray, oil_temperature: np.ndarray) -> np.ndarray:
-    """Relative error of the finer of two grids, from their difference."""
+    """Relative error on the finer of two grids, from the difference."""
     size = np.abs(fine - oil_temperature if name.endswith("_temperature") else fine)
     share = FILM_SHARE if name.endswith("_film") else 1.0
     return share * np.abs(fine - coarse) / np.where(size > 0.0, size, np.nan)

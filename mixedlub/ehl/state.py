@@ -1,4 +1,4 @@
-"""What is solved for: pressure, approach, temperature across the film, and shear stress."""
+"""Unknowns: pressure, approach, temperature across the film, and shear stress."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from mixedlub.ehl.linear import times
 class State(Batch):
     """Pressure (Hertz pressures) at nodes, approach (b^2/R), temperature (K) at nodes and across, and stress (Pa).
 
-    The stress is that in the middle of the film, of the left and right side of each cell.
+    The stress is taken in the middle of the film, at the left and right side of each cell.
     """
 
     pressure: np.ndarray

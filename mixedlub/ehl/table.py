@@ -1,4 +1,4 @@
-"""Results as tables of described columns: one row a contact, and one row a node."""
+"""Results as tables of described columns: a row per contact, and a row per node."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     import xarray
 
 SHOWN = {"m": ("_um", 1e6), "Pa": ("_GPa", 1e-9), "W/m": ("_W_mm", 1e-3), "1": ("", 1.0), "K": ("_C", 1.0)}
-"""End of the name of a column and its factor, by the unit in SI."""
+"""Suffix of a column name and its factor, by SI unit."""
 OTHERWISE = {"position": ("_mm", 1e3), "shear_stress": ("_MPa", 1e-6)}
-"""The same of quantities that are shown in another unit."""
+"""Suffix and factor of quantities displayed in another unit."""
 
 
 def _shown(quantities: Mapping[str, Quantity]) -> list[ResultColumn]:
@@ -65,7 +65,7 @@ TABLES = {
 
 
 def contact_table(problem: Problem, data: xarray.Dataset) -> pd.DataFrame:
-    """A row a contact: its conditions, its status, and its results each with its error."""
+    """Table with a row per contact: conditions, status, and results with errors."""
     contacts = problem.contacts
     load, material = contacts.moes(*problem.oil.at_ambient(contacts.oil_temperature))
     table = frame_of(contacts, CONDITIONS).assign(moes_load=load, moes_material=material)
@@ -84,7 +84,7 @@ def contact_table(problem: Problem, data: xarray.Dataset) -> pd.DataFrame:
 
 
 def profile_table(data: xarray.Dataset) -> pd.DataFrame:
-    """A row a node of each contact that has a solution."""
+    """Table with a row per node of each solved contact."""
     contact, node = np.nonzero(np.isfinite(data["position"].to_numpy()))
     nodes = {one.name: one.of(data[one.output].to_numpy()[contact, node]) for one in ALONG}
     return pd.DataFrame({"contact": contact + 1, **nodes})

@@ -12,9 +12,9 @@ from profiles.errors import as_path
 
 
 def run(study: Study | str | PathLike[str], **how: Any) -> Results:
-    """Run a study, given as a file or as a `Study`; ``how`` are the keywords of `run_study`.
+    """Run a study, given as a file or as a `Study`; ``how``: keywords of `run_study`.
 
-    Its cautions and doubts are Python warnings, ``mixedlub.CautionWarning``; the result has all findings.
+    Cautions and doubts are issued as ``mixedlub.CautionWarning``; the result has all findings.
 
     >>> import mixedlub as ml
     >>> ml.study.run("nowhere.toml")

@@ -1,4 +1,4 @@
-"""Bands of the results: what the scatter of the traces over a surface, and another short cut-off, would have given.
+"""Bands of the results: the effect of the scatter of the traces over a surface and of another short cut-off.
 
 A group is the study at one short cut-off, with the surfaces moved to both ends of every axis of their scatter. The
 squares of the changes of an output add up over the axes; the band of the study is the widest of its groups.
@@ -20,9 +20,9 @@ from mixedlub.schema.units import ending_of, without_unit
 from profiles.errors import InputError
 
 FACTORS = (1.0, 0.5, 2.0)
-"""Short cut-offs over those of the study, its own first."""
+"""Short cut-offs relative to the study's; the study itself first."""
 LOW, HIGH = "lowest_", "highest_"
-"""Before the name of an output: the ends of its band."""
+"""Prefixes of output names: ends of the band."""
 AT_MOST_ONE = ("area_ratio", "mean_asperity_load_share", "asperity_load_share", "efficiency", "tooth_efficiency")
 
 Pairs = list[tuple[Surface, Surface]]
@@ -31,7 +31,7 @@ Values = Mapping[str, Any]
 
 @dataclass(frozen=True, eq=False)
 class Group:
-    """Inputs of the surfaces at one short cut-off, and at both ends of each axis of their scatter."""
+    """Inputs of the surfaces at one short cut-off and at both ends of each axis of their scatter."""
 
     own: Values
     axes: tuple[tuple[Values, Values], ...]
@@ -44,7 +44,7 @@ def groups(
     pairings: Sequence[tuple[str, str]],
     inputs: Callable[[Pairs], Values],
 ) -> tuple[Group, ...]:
-    """The groups of a kind of band: ``traces``, ``short_cutoff`` or ``both``; none for ``none``."""
+    """Groups of a kind of band: ``traces``, ``short_cutoff`` or ``both``; empty for ``none``."""
     if kind == "none":
         return ()
     measured = [name for name in surfaces if rig.file.surfaces[name].is_measured]
@@ -75,7 +75,7 @@ def _ends(
     spread: Mapping[str, Sequence[Mapping[str, float]]],
     pairings: Sequence[tuple[str, str]],
 ) -> Iterator[tuple[Pairs, Pairs]]:
-    """Pairings with one side at both ends of one axis; a surface against itself is moved on both sides at once."""
+    """Pairings with a side at both ends of an axis; a surface paired with itself is moved on both sides at once."""
     sides = (0, 1) if any(a != b for a, b in pairings) else (0,)
     for side in sides:
         for axis in range(max(map(len, spread.values()), default=0)):
@@ -97,7 +97,7 @@ def _pairs(
 
 
 def _tell_samples(rig: Rig, measured: Sequence[str]) -> None:
-    """Report the surfaces whose scatter is that within too few traces."""
+    """Report surfaces with fewer than three traces: their scatter is taken between sampling lengths."""
     few = [name for name in measured if rig.measured(name).by_lengths]
     if few:
         text = (
@@ -108,7 +108,7 @@ def _tell_samples(rig: Rig, measured: Sequence[str]) -> None:
 
 
 def _tell_cutoffs(rig: Rig, measured: Sequence[str]) -> None:
-    """Report the surfaces that cannot be had at another short cut-off."""
+    """Report the surfaces without values at another short cut-off."""
     for factor in FACTORS[1:]:
         fixed = [name for name in measured if rig.at_short_cutoff(name, factor) is rig.surface(name)]
         if fixed:
@@ -117,11 +117,11 @@ def _tell_cutoffs(rig: Rig, measured: Sequence[str]) -> None:
 
 
 def band(found: Sequence[tuple[Values, Sequence[tuple[Values, Values]]]], outputs: Sequence[str]) -> dict[str, Any]:
-    """Ends of the band of each output, from the results of every group: its own, and both ends of every axis.
+    """Ends of the band of each output, from the results of every group: unchanged, and at both ends of every axis.
 
-    Changes of a positive output are those of its logarithm. Each surface has Student's t of its own number of traces,
-    and the squares add: the interval holds at least its level for a sum of means with unequal numbers and scatter.
-    Source: S. K. Banerjee, Sankhya 22 (1960) 357.
+    Changes of a positive output are changes of its logarithm. Student's t of each surface is taken at its number of
+    traces, and the squares add: the interval holds at least its level for a sum of means with unequal numbers and
+    scatter. Source: S. K. Banerjee, Sankhya 22 (1960) 357.
 
     >>> axes = [({"y": np.array(0.9)}, {"y": np.array(1.2)}), ({"y": np.array(1.0)}, {"y": np.array(1.0)})]
     >>> ends = band([({"y": np.array(1.0)}, axes)], ["y"])
@@ -154,7 +154,7 @@ def _span(own: np.ndarray, axes: Sequence[tuple[np.ndarray, np.ndarray]]) -> tup
 
 
 def column(name: str, end: str) -> str:
-    """Name of the column of an end of a band.
+    """Column name of an end of a band.
 
     >>> column("power_loss_W", "low"), column("mean_friction", "high")
     ('power_loss_low_W', 'mean_friction_high')

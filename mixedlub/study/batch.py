@@ -1,4 +1,4 @@
-"""The batch engine: a factorial in blocks, each computed in pieces that fit the cache, on threads or a cluster.
+"""The batch engine: a factorial in blocks, computed in pieces that fit the cache, on threads or a cluster.
 
 Every quantity has length one on axes it does not depend on, so quantities independent of the surfaces (film, pressure,
 shear) are computed once for all pairings.
@@ -49,38 +49,38 @@ OUTPUTS = (
     "flash_temperature",
 )
 SPUR = ("load_loss_factor",)
-"""Further outputs of spur gears."""
+"""Additional outputs of spur gears."""
 SHARED = ("mean_asperity_load_share", "film_over_unbalanced")
-"""Further outputs where film and asperities share the load."""
+"""Additional outputs if film and asperities share the load."""
 RATED = ("mean_flash",)
-"""Further outputs of a study that states limits of the oil."""
+"""Additional outputs of a study with limits of the oil."""
 RATED_FILMS = ("least_specific_film",)
-"""Further outputs where it states one of the film."""
+"""Additional outputs of a study with a limit of the film."""
 CHECKS = ("largest_area_ratio",)
 SHARED_CHECKS = ("balance_error", "share_lacking")
-"""Further checks where film and asperities share the load."""
+"""Additional checks if film and asperities share the load."""
 FILM_OVER_WIDTH = "film_over_contact_width"
-"""Check: the largest film of the path over the width of the Hertz contact there."""
+"""Check: largest ratio of film thickness to Hertz contact width along the path."""
 BEYOND = "beyond_"
-"""Before the key of a limit: the value farthest beyond its range, NaN where none is."""
+"""Prefix of a limit's key: value farthest beyond its range, NaN if all are within."""
 BLOCK_POINTS = 4_000_000
 
 Found = dict[str, np.ndarray]
 
 
 def processors() -> int:
-    """Processors that this process may use; all of the machine's where the system does not report it."""
+    """Number of processors available to this process; all of the machine if the system does not report them."""
     own = getattr(os, "sched_getaffinity", None)
     return len(own(0)) if own is not None else os.cpu_count() or 1
 
 
 def blocks(plan: Plan) -> list[Block]:
-    """The units of work: each is saved on completion, so an interrupted run repeats only unfinished ones."""
+    """Units of work, each saved on completion, so that an interrupted run repeats only unfinished blocks."""
     return split(plan.shape, reach(plan.shape, plan.points, BLOCK_POINTS, plan.shape[0]))
 
 
 def names(plan: Plan) -> tuple[str, ...]:
-    """Names of the outputs and checks of a plan, without the ends of bands."""
+    """Names of the outputs and checks of a plan, without ends of bands."""
     shared = (*SHARED, *SHARED_CHECKS) if plan.balanced else ()
     losses = map(loss_of, plan.losing)
     return (
@@ -97,7 +97,7 @@ def names(plan: Plan) -> tuple[str, ...]:
 
 
 def compute(plan: Plan, block: Block) -> Found:
-    """Outputs, checks and ends of bands of one block in SI, each of the block's shape."""
+    """Outputs, checks and ends of bands of a block in SI, each of the block's shape."""
     found = _computed(plan, block)
     if not plan.bands:
         return found
@@ -143,7 +143,7 @@ def _fill(plan: Plan, block: Block, found: Found) -> None:
 
 
 def stages(model: Model, inputs: Inputs) -> tuple[Model, Model]:
-    """The model split in two: steps independent of the surfaces, and the others in order."""
+    """The model split into the steps independent of the surfaces and the remaining steps."""
     varying = {name for name, value in inputs.items() if np.ndim(value) == 5 and np.shape(value)[0] > 1}
     common: list[Step] = []
     own: list[Step] = []
@@ -166,9 +166,9 @@ def _part(model: Model, steps: Sequence[Step], want: Sequence[str]) -> Model:
 
 
 def reduced(state: Inputs, plan: Plan) -> Found:
-    """Results of a piece with the mesh axis reduced to one; what is not loaded is in no mean and no check.
+    """Results of a piece with the mesh axis reduced to one; unloaded points count in no mean and no check.
 
-    Checks and loads of asperities are of the points that `carries_load` counts.
+    Checks and loads of asperities cover the points counted by `carries_load`.
     """
     film, area, pressure, weight = (state[n] for n in ("film_thickness", "area_ratio", "hertz_pressure", "mean_weight"))
     loaded = weight > 0
@@ -216,7 +216,7 @@ def reduced(state: Inputs, plan: Plan) -> Found:
 
 
 def _rated(state: Inputs, loaded: np.ndarray, plan: Plan) -> Found:
-    """What limits of a study are held against: the mean flash temperature, and the least film by mean roughness."""
+    """Values compared with the limits of a study: mean flash temperature, and least film over mean roughness."""
     if plan.safety is None:
         return {}
     found = {"mean_flash": over_path(state["flash_temperature"], state["mean_weight"])}
@@ -227,7 +227,7 @@ def _rated(state: Inputs, loaded: np.ndarray, plan: Plan) -> Found:
 
 
 def _over_width(state: Inputs) -> np.ndarray:
-    """Film over the width of its Hertz contact, 2 b = 8 R p_0 / E'."""
+    """Film thickness over the width of the Hertz contact, 2 b = 8 R p_0 / E'."""
     width = 8.0 * state["radius"] * state["hertz_pressure"] / state["reduced_modulus"]
     return np.asarray(state["film_thickness"] / width)
 
@@ -237,7 +237,7 @@ def _largest(value: np.ndarray, where: np.ndarray) -> np.ndarray:
 
 
 def _shared(state: Inputs, judged: np.ndarray, mean_pressure: np.ndarray) -> Found:
-    """Outputs and checks of a piece in which film and asperities share the load; its largest share is sought."""
+    """Outputs and checks of a piece if film and asperities share the load; checks and load ratio are maxima."""
     share, of_film, weight = state["asperity_pressure"] / mean_pressure, state["film_load_share"], state["mean_weight"]
     return {
         "asperity_load_ratio": _largest(share, judged),
@@ -251,10 +251,10 @@ def _shared(state: Inputs, judged: np.ndarray, mean_pressure: np.ndarray) -> Fou
 def run(
     plan: Plan, todo: Sequence[Block] | None = None, *, scheduler: str | None = None, threads: int | None = None
 ) -> Iterator[tuple[Block, Found]]:
-    """Compute blocks; yields them in order of completion.
+    """Compute blocks on threads or a cluster; yields them in order of completion.
 
-    On threads of this machine, or on the workers of the Dask scheduler at an address; the block function is
-    the same, and so are its numbers on processors of one kind.
+    On threads of this machine, or on the workers of the Dask scheduler at an address; block function and numbers are
+    the same on processors of one kind.
     """
     todo = blocks(plan) if todo is None else todo
     if scheduler is not None:
@@ -278,10 +278,10 @@ def run(
 
 @cache
 def pin_allocator() -> bool:
-    """Make glibc keep the pages of freed arrays; two to four times faster, and a process-wide setting.
+    """Make glibc keep the pages of freed arrays (process-wide); two to four times faster. Returns whether it was set.
 
-    Without it every temporary array is returned to the system and allocated again page by page. Set
-    MIXEDLUB_PIN_ALLOCATOR=0 to leave the allocator alone. Returns whether it was set.
+    Without it every temporary array is returned to the system and allocated again page by page.
+    MIXEDLUB_PIN_ALLOCATOR=0 leaves the allocator alone.
     """
     if os.environ.get("MIXEDLUB_PIN_ALLOCATOR") == "0" or platform.libc_ver()[0] != "glibc":
         return False

@@ -26,12 +26,12 @@ if TYPE_CHECKING:
 
 
 def fingerprint(plan: Plan) -> str:
-    """A hash of every number and every line of code the results depend on."""
+    """Hash of every number and every line of code that affects the results."""
     return hashlib.sha256(f"{code_fingerprint()}{input_fingerprint(plan)}".encode()).hexdigest()
 
 
 def input_fingerprint(plan: Plan) -> str:
-    """A hash of every number the results depend on."""
+    """Hash of every number that affects the results."""
     digest = hashlib.sha256()
     moved = (inputs for group in plan.bands for inputs in (group.own, *itertools.chain(*group.axes)))
     for inputs in (plan.inputs, *moved):
@@ -48,12 +48,12 @@ def input_fingerprint(plan: Plan) -> str:
 
 
 def parts_folder(out: Path, plan: Plan) -> Path:
-    """Folder of the blocks of this study until it is complete."""
+    """Folder of the blocks of a study until it is complete."""
     return out / f"{PARTS}{fingerprint(plan)[:16]}"
 
 
 def kept(folder: Path, todo: list[Block]) -> Iterator[tuple[Block, Found]]:
-    """Blocks that an earlier run finished."""
+    """Blocks completed by an earlier run."""
     if not folder.is_dir():
         return
     import pyarrow as pa
@@ -73,7 +73,7 @@ def kept(folder: Path, todo: list[Block]) -> Iterator[tuple[Block, Found]]:
 
 
 def keep(folder: Path, block: Block, found: Found) -> None:
-    """Save one finished block."""
+    """Save a completed block."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
@@ -92,7 +92,7 @@ def floats(values: np.ndarray) -> pa.Array:
 
 
 def words(names: Sequence[str], index: np.ndarray) -> pa.Array:
-    """A column of names by their index; built as in `floats`."""
+    """A column of names by index, built like `floats`."""
     import pyarrow as pa
 
     encoded = [name.encode() for name in names]

@@ -1,4 +1,4 @@
-"""The effects that a study switches on, with the values of their parameters, checked before anything is computed."""
+"""Effects switched on in a study, with their parameter values, checked before the computation."""
 
 from __future__ import annotations
 
@@ -17,11 +17,12 @@ from mixedlub.study.schema import Options, StudyFile
 from profiles.errors import InputError
 
 AREA_ALONE = ("balance", "asperities", "mixture", "heights")
-"""Options at whose defaults an effect on the contact area needs no other change."""
+"""Options that must have their defaults with an effect on the contact area, because it leaves the asperity load
+unchanged."""
 
 
 def chosen_effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, ...], Parameters]:
-    """The active effects, each parameter at its given value or as its law has it."""
+    """The active effects, with each parameter at its given value or at the value of its law."""
     _refuse_unread(file, tuple(inputs))
     for e in find(sorted(file.effects), "effects"):
         _refuse_ignored(e, file.options)
@@ -36,7 +37,7 @@ def chosen_effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Ef
 
 
 def _refuse_ignored(e: Effect, options: Options) -> None:
-    """Refuse an effect that the chosen laws would see in part only."""
+    """Raise an error for an effect that reaches only part of the chosen laws."""
     default = Options()
     changed = [
         f'{name} = "{getattr(default, name)}"'
@@ -55,7 +56,7 @@ def _refuse_ignored(e: Effect, options: Options) -> None:
 
 
 def _refuse_second_law(e: Effect, options: Options) -> None:
-    """Refuse an effect that replaces a step for which an option chooses another law than its default."""
+    """Raise an error for an effect that replaces a step with a non-default law."""
     default = Options()
     for name in STEPS.get(e.replaces, ()):
         value = getattr(options, name)
@@ -65,7 +66,7 @@ def _refuse_second_law(e: Effect, options: Options) -> None:
 
 
 def _tell_defaults(e: Effect, given: Mapping[str, float | str], values: Mapping[str, float]) -> None:
-    """Report the law that was taken where none is named, numbers of no law, and an effect that nothing switches on."""
+    """Report default laws, parameter values of no law, and effects at their null."""
     taken, *others = e.laws_within_reach or ("",)
     if others and LAW not in given and not given.keys() >= e.laws_within_reach[taken].keys():
         text = f"taken as the law of {taken}; law = NAME chooses {' or '.join(others)}"
@@ -84,7 +85,7 @@ def _tell_defaults(e: Effect, given: Mapping[str, float | str], values: Mapping[
 
 
 def _refuse_unread(file: StudyFile, given: Sequence[str]) -> None:
-    """Refuse effects on what the friction law does not read."""
+    """Raise an error for effects on quantities that the friction law does not read."""
     if file.options.friction == friction.BASE:
         return
     base = study_chain(Options())

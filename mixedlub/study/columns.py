@@ -1,6 +1,6 @@
-"""The columns of a study's tables: name with unit, meaning, and how each follows from an output in SI.
+"""Columns of a study's tables: name with unit, meaning, and conversion from an output in SI.
 
-This is the one description of them: files, pages and labelled arrays take theirs from here.
+Files, pages and labelled arrays all use this description.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from mixedlub.study.bands import column as band_column
 from mixedlub.study.schema import StudyFile
 
 VALIDITY = "validity"
-"""ResultColumn that says of a condition where it is outside the range of the model."""
+"""Column with the validity of a condition: reasons for being outside the range of the model."""
 
 
 def _of_glossary(output: str, name: str, factor: float = 1.0) -> ResultColumn:
@@ -84,7 +84,7 @@ FIRST = (
         "as it carries load; only with a balance of load",
     ),
 )
-"""Columns before that of the validity, in their order; some need an option."""
+"""Columns before the validity, in order; some need an option."""
 FURTHER = (
     ResultColumn("normalised_loss", "normalised_loss", "power loss over the largest of the study"),
     ResultColumn("input_power", "input_power_W", "power that the pinion takes in: its torque times its angular speed"),
@@ -170,11 +170,11 @@ FURTHER = (
         zero=ZERO_CELSIUS,
     ),
 )
-"""Columns behind that of the validity; those that a study cannot have are left out."""
+"""Columns after the validity; columns impossible in a study are left out."""
 
 
 def ends_of_bands(columns: Iterable[ResultColumn]) -> list[ResultColumn]:
-    """Columns of both ends of the bands of some columns.
+    """Columns of both ends of the bands of columns.
 
     >>> [column.name for column in ends_of_bands(FIRST[:1])]
     ['power_loss_low_W', 'power_loss_high_W']
@@ -188,13 +188,13 @@ def ends_of_bands(columns: Iterable[ResultColumn]) -> list[ResultColumn]:
 
 
 COLUMNS = {c.output: c for c in (*FIRST, *ends_of_bands(FIRST), *FURTHER, *ends_of_bands(FURTHER))}
-"""Every column of an output that is not the loss of an effect, in the order of the table."""
+"""Columns of all outputs other than the losses of effects, in the order of the table."""
 CHECKS = {
     "largest_area_ratio": "boundary area ratio where asperities carry most, as asperity_load_ratio has it",
     "balance_error": "part of the load by which film and asperities together miss it, the largest of the same places",
     "share_lacking": "least load share that the film law is for over the film's own, where asperities carry 5 %",
 }
-"""Meaning of the checks of a computation that no table has."""
+"""Meaning of the checks of a computation that are in no table."""
 OF_VALIDITY = ResultColumn(
     VALIDITY,
     VALIDITY,
@@ -205,7 +205,7 @@ OF_VALIDITY = ResultColumn(
 
 
 def loss_of(effect: str) -> str:
-    """The output that is the loss by an effect.
+    """Name of the output with the loss of an effect.
 
     >>> loss_of("windage"), loss_columns(["windage"])[0].name
     ('windage_loss', 'windage_loss_W')
@@ -214,7 +214,7 @@ def loss_of(effect: str) -> str:
 
 
 def loss_columns(effects: Iterable[str]) -> list[ResultColumn]:
-    """Columns of the power lost by effects, in their order."""
+    """Columns of the power lost by effects."""
     return [
         ResultColumn(loss_of(name), f"{loss_of(name)}_W", f"power lost by the effect {name}, part of other_loss_W")
         for name in effects
@@ -222,14 +222,14 @@ def loss_columns(effects: Iterable[str]) -> list[ResultColumn]:
 
 
 def condition_columns() -> list[ResultColumn]:
-    """The columns of the pairing and the conditions."""
+    """Columns of the pairing and the conditions."""
     levels = {key.name: key.meaning for key in table(StudyFile, "conditions").fields}
     sides = described(**{f"{side}_surface": f"text: surface of the {side}" for side in ("pinion", "gear")})
     return [*sides, *(ResultColumn("", name, meaning) for name, meaning in levels.items())]
 
 
 def every_column(effects: Sequence[str] = (), *, bands: bool = True) -> list[ResultColumn]:
-    """Every column that a table of results may have, in their order."""
+    """All possible columns of a table of results, in order."""
     if not bands:
         return [*condition_columns(), *FIRST, OF_VALIDITY, *FURTHER, *loss_columns(effects)]
     first, further = ([*some, *ends_of_bands(some)] for some in (FIRST, FURTHER))

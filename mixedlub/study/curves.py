@@ -29,7 +29,7 @@ PLACES = (
     ResultColumn("roll_angle", "roll_angle_deg", GLOSSARY["roll_angle"].meaning, float(np.degrees(1.0))),
     ResultColumn("face_position", "face_position_mm", "place across the face, from its front", 1e3),
 )
-"""Columns of the place of a contact point."""
+"""Columns of the position of a contact point."""
 ALONG_PATH = (
     _of("path_weight"),
     _of("load_share"),
@@ -49,22 +49,22 @@ ALONG_PATH = (
     _of("film_rise", "film_rise_K"),
     _of("flash_temperature", "flash_temperature_K"),
 )
-"""Columns of the quantities of a contact point."""
+"""Columns of the quantities at a contact point."""
 OF_POINTS = tuple(c.output for c in ALONG_PATH)
 MOST_ROWS = 5_000_000
-"""Most rows of curves that are written."""
+"""Largest number of rows of curves written."""
 MOST_CSV_ROWS = 50_000
-"""Most rows of curves that are written as CSV beside Parquet: 15 MB."""
+"""Largest number of rows of curves written as CSV beside Parquet: 15 MB."""
 _ROWS = 100_000
 
 
 def curve_columns() -> list[ResultColumn]:
-    """Every column of the curves, in their order."""
+    """All columns of the curves, in order."""
     return [*condition_columns(), *PLACES, *ALONG_PATH]
 
 
 def curves(study: Study) -> Iterator[pa.Table]:
-    """The curves as tables of bounded size, pairing by pairing, condition by condition, point by point."""
+    """The curves as tables of bounded size, by pairing, condition and point."""
     import pyarrow as pa
 
     plan, points, levels = study.plan, study.mesh, study.file.conditions
@@ -90,7 +90,7 @@ def curves(study: Study) -> Iterator[pa.Table]:
 
 
 def refuse_too_many(study: Study) -> None:
-    """Refuse a study whose curves would fill a disk."""
+    """Raise an error if the curves of a study would fill a disk."""
     rows = study.conditions * study.plan.points
     if rows > MOST_ROWS:
         rule = f"the curves would have {rows} rows, of at most {MOST_ROWS}; take fewer conditions, or fewer path_points"
@@ -98,7 +98,7 @@ def refuse_too_many(study: Study) -> None:
 
 
 def curve_table(study: Study) -> LongTable:
-    """The curves of a study with their metadata, to be written: as CSV too where they are short."""
+    """The curves of a study with metadata for writing; short ones also as CSV."""
     return LongTable(
         lambda: curves(study),
         tuple(c.name for c in curve_columns()),

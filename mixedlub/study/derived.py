@@ -1,4 +1,4 @@
-"""Outputs of a study that follow from others once all conditions are computed."""
+"""Outputs of a study computed from other outputs after all conditions."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from mixedlub.study.schema import Safety
 
 
 def following(plan: Plan, inputs: Mapping[str, Any], values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """What follows from the outputs at each condition of a part, whose inputs these are: they have bands as well."""
+    """Outputs computed from the outputs at each condition of a part with these inputs; they also have bands."""
     total, power = values["power_loss"], _input_power(inputs)
     inlet, bulk = _temperatures(inputs)
     contact = bulk + values["flash_temperature"]
@@ -32,7 +32,7 @@ def following(plan: Plan, inputs: Mapping[str, Any], values: Mapping[str, np.nda
 
 
 def derived(plan: Plan, pair: GearPair, values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """That of the whole study, with what has no band or needs all conditions, in the shape of the study."""
+    """Outputs computed for the whole study, including those without bands or needing all conditions."""
     most = values["power_loss"].max()
     found = {
         **following(plan, plan.inputs, values),
@@ -51,7 +51,7 @@ def derived(plan: Plan, pair: GearPair, values: Mapping[str, np.ndarray]) -> dic
 
 
 def _temperatures(inputs: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray]:
-    """Of the oil at the inlet, and of the teeth (K)."""
+    """Temperatures (K) of the oil at the inlet and of the teeth."""
     inlet = np.asarray(inputs["oil_temperature"])[..., 0]
     return inlet, inlet + np.asarray(inputs["bulk_rise"] + np.zeros(1))[..., 0]
 
@@ -59,7 +59,7 @@ def _temperatures(inputs: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray]:
 def _rated(
     safety: Safety | None, values: Mapping[str, np.ndarray], oil: np.ndarray, bulk: np.ndarray, contact: np.ndarray
 ) -> dict[str, np.ndarray]:
-    """Margins against the limits that a study states; temperatures in K."""
+    """Margins against the limits of a study; temperatures in K."""
     found: dict[str, np.ndarray] = {}
     if safety is None:
         return found

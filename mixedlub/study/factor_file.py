@@ -1,4 +1,4 @@
-"""What a file of factors may contain: the study that it varies, its factors with their levels, and the design."""
+"""Content of a file of factors: the study, its factors with their levels, and the design."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from mixedlub.study.columns import FIRST, FURTHER
 from mixedlub.study.schema import Names, Numbers, each_once
 
 OVER = ("torque_Nm", "speed_rpm", "oil_temperature_C")
-"""Factors that a full factorial takes from the conditions of the study."""
+"""Conditions of the study that are factors of a full factorial."""
 MOST_RUNS = 100_000
 RESPONSES = tuple(c.name for c in (*FIRST, *FURTHER))
 Seeds = Annotated[tuple[Whole, ...], Field(min_length=1)]
@@ -25,7 +25,7 @@ def _known_response(name: str) -> str:
 
 
 class Factors(Section):
-    """Factors, each with its levels; in a random design a number varies evenly between its smallest and largest."""
+    """Factors with their levels; a random design varies a number uniformly between the smallest and the largest."""
 
     gears: Names | None = key(
         "gears, by name or file with a section [gears]; each takes the place of [gears], whose load_sharing stays",
@@ -88,7 +88,7 @@ class Factors(Section):
 
     @property
     def given(self) -> dict[str, tuple[Any, ...]]:
-        """The levels of every factor that is varied."""
+        """Levels of every varied factor."""
         return {name: levels for name in type(self).model_fields if (levels := getattr(self, name)) is not None}
 
     @model_validator(mode="after")
@@ -101,7 +101,7 @@ class Factors(Section):
 
 
 class Design(Section):
-    """Which combinations of the levels are run."""
+    """Combinations of levels to run."""
 
     kind: Literal["full_factorial", "latin_hypercube", "sobol"] = key(
         "how the runs are chosen",
@@ -126,7 +126,7 @@ class Design(Section):
 
     @property
     def random(self) -> bool:
-        """Whether the runs are drawn."""
+        """Whether the runs are random."""
         return self.kind != "full_factorial"
 
     @model_validator(mode="after")
@@ -158,5 +158,5 @@ class FactorFile(Section):
 
 
 def read_factor_file(path: Path) -> FactorFile:
-    """The content of a file of factors."""
+    """Read a file of factors."""
     return parse(FactorFile, read_toml(path), str(path))

@@ -1,4 +1,4 @@
-"""Rows of an experiment in chunks of runs, each kept as Parquet, from which an interrupted experiment resumes."""
+"""Rows of an experiment in chunks of runs, saved as Parquet, so that an interrupted experiment resumes."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ if TYPE_CHECKING:
     import pandas as pd
 
 MOST_RUNS, MOST_ROWS = 64, 200_000
-"""Runs of a chunk, and rows of their studies unless one study has more."""
+"""Largest number of runs of a chunk, and of rows of their studies unless a single study has more."""
 
 
 def parts_folder(out: Path, experiment: Experiment) -> Path:
-    """Folder of the chunks of this experiment until it is complete; those of other inputs have another."""
+    """Folder of the chunks of an experiment with these inputs, until it is complete."""
     return out / f"{PARTS}{experiment.fingerprint[:16]}"
 
 
@@ -27,7 +27,7 @@ def in_chunks(
     parts: Path | None,
     progress: Callable[[int, int], None],
 ) -> pd.DataFrame:
-    """The rows of all runs, in their order; with a folder for parts, chunks of an earlier run are taken from there."""
+    """Rows of all runs in order; finished chunks in a folder for parts are reused."""
     import pandas as pd
 
     size = max(1, min(MOST_RUNS, MOST_ROWS // experiment.study(experiment.runs[0]).conditions))

@@ -1,4 +1,4 @@
-"""The runs of a file of factors: the study altered for each combination of levels, and what comes of it."""
+"""Runs of a file of factors: the study modified for each combination of levels, and the responses."""
 
 from __future__ import annotations
 
@@ -30,34 +30,34 @@ from profiles.errors import InputError
 Run = dict[str, Any]
 """The level of every factor in one run."""
 MOST_ROWS = 2_000_000
-"""Most rows of the table of a full factorial."""
+"""Largest number of rows of the table of a full factorial."""
 STEEL = ("coating", "thermal_conductivity_W_mK", "density_kg_m3", "specific_heat_J_kgK")
-"""Keys of a surface that stay when its trace is replaced by moments."""
+"""Keys of a surface kept when moments replace its trace."""
 
 
 @dataclass(frozen=True, eq=False)
 class Experiment:
-    """A file of factors with the study that it varies."""
+    """A file of factors and its study."""
 
     file: FactorFile
     path: Path
     content: Mapping[str, Any]
     fingerprint: str = ""
-    """Of every number and line of code on which the results depend."""
+    """Hash of every number and line of code that affects the results."""
 
     @property
     def levels(self) -> dict[str, tuple[Any, ...]]:
-        """The levels of every factor."""
+        """Levels of every factor."""
         return self.file.factors.given
 
     @property
     def study_path(self) -> Path:
-        """The file of the study."""
+        """File of the study."""
         return self.path.parent / self.file.study
 
     @property
     def origin(self) -> Origin:
-        """The two files, by their content."""
+        """Content hashes of both files."""
         digest = hashlib.sha256()
         for path in (self.path, self.study_path):
             digest.update(hashlib.sha256(path.read_bytes()).digest())
@@ -65,7 +65,7 @@ class Experiment:
 
     @cached_property
     def runs(self) -> list[Run]:
-        """The runs in order: the combinations of a full factorial, or the points of a random design."""
+        """The runs in order: combinations of a full factorial, or points of a random design."""
         design = self.file.design
         if design.runs is None:
             return [dict(zip(self.levels, combination)) for combination in itertools.product(*self.levels.values())]
@@ -98,7 +98,7 @@ class Experiment:
         return content
 
     def _resample(self, content: dict[str, Any], seed: int) -> None:
-        """Replace every trace by the moments of its sampling lengths, drawn anew with replacement."""
+        """Replace every trace by the moments of its sampling lengths, resampled with replacement."""
         from roughness.uncertainty import resampled_moments
 
         rig = Rig(parse(StudyFile, content, str(self.study_path)), self.study_path.parent.resolve())
@@ -111,7 +111,7 @@ class Experiment:
 
 
 def read_experiment(path: Path, file: FactorFile) -> Experiment:
-    """The experiment of a file of factors; its first run is read, so that an error shows at once."""
+    """Experiment of a file of factors; the first run is read, so that errors appear at once."""
     study = path.parent / file.study
     if not study.is_file():
         raise InputError(
@@ -128,7 +128,7 @@ def read_experiment(path: Path, file: FactorFile) -> Experiment:
 
 
 def _at(levels: Sequence[Any], u: float) -> Any:
-    """The level at a point of the unit interval: a number between the ends, or a name or seed by its place.
+    """Level at a point of the unit interval: a number between the ends, or a name or seed by position.
 
     >>> _at((10.0, 20.0), 0.25), _at(("rigid", "ldp"), 0.75)
     (12.5, 'ldp')
@@ -144,7 +144,7 @@ def _told(level: Any) -> str:
 
 
 def axes(experiment: Experiment, study: Study) -> dict[str, tuple[Any, ...]]:
-    """Factors of a full factorial with their levels, pairings and conditions among them, if of two levels or more."""
+    """Factors of a full factorial with at least two levels, including pairings and conditions."""
     conditions = {name: tuple(getattr(study.file.conditions, name)) for name in LEVELS}
     pairings = tuple(f"{a} / {b}" for a, b in study.pairings)
     every = {**experiment.levels, "pairing": pairings, **conditions}
@@ -152,7 +152,7 @@ def axes(experiment: Experiment, study: Study) -> dict[str, tuple[Any, ...]]:
 
 
 def refuse_too_many(experiment: Experiment) -> None:
-    """Refuse a full factorial whose table would fill the memory."""
+    """Raise an error if the table of a full factorial would exceed the memory."""
     rows = len(experiment.runs) * experiment.study(experiment.runs[0]).conditions
     if rows > MOST_ROWS:
         rule = f"{len(experiment.runs)} runs give {rows} rows, of at most {MOST_ROWS}; take fewer levels or conditions"
@@ -160,7 +160,7 @@ def refuse_too_many(experiment: Experiment) -> None:
 
 
 def response_of(experiment: Experiment, found: Results) -> np.ndarray:
-    """The response at every pairing and condition, in the unit of its column."""
+    """Response at every pairing and condition, in the unit of its column."""
     wanted = experiment.file.design.response
     known = {c.name: c for c in found.columns}
     if wanted not in known:
@@ -169,7 +169,7 @@ def response_of(experiment: Experiment, found: Results) -> np.ndarray:
 
 
 def mean_responses(experiment: Experiment, runs: Sequence[Run]) -> np.ndarray:
-    """Mean response and share of conditions out of range of runs of a random design, of shape (2, runs)."""
+    """Mean response and share of conditions out of range per run of a random design, of shape (2, runs)."""
 
     def of_run(run: Run) -> tuple[float, float]:
         with collected():

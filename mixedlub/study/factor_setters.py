@@ -1,4 +1,4 @@
-"""How the level of a factor changes the content of a study file."""
+"""Changes of a study file by the level of a factor."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from profiles.errors import InputError, nearest
 
 Content = dict[str, Any]
 MEASURED = {"profile", "traces", "map"}
-"""Keys of a surface that is measured."""
+"""Keys of a measured surface."""
 LENGTHS = ("tip_diameter_mm", "centre_distance_mm")
-"""Lengths of gears that a module scales; the face width is a factor of its own."""
+"""Lengths of gears that scale with the module; the face width is a separate factor."""
 
 
 def set_level(content: Content, factor: str, level: Any, folder: Path) -> None:
-    """Change the content of a study file in a folder to a level of a factor."""
+    """Set a factor in the content of a study file to a level."""
     if factor == "gears":
         _set_gears(content, level, folder)
     else:
@@ -27,7 +27,7 @@ def set_level(content: Content, factor: str, level: Any, folder: Path) -> None:
 
 
 def _set_gears(content: Content, level: str, folder: Path) -> None:
-    """Gears by name or from a file, with the load sharing of the study unless the file states one."""
+    """Set gears by name or file; load sharing is kept from the study unless the file states it."""
     _refuse_table(content, "gears")
     sharing = {"load_sharing": content["gears"]["load_sharing"]} if "load_sharing" in content["gears"] else {}
     content["gears"] = sharing | _gears(level, folder)
@@ -48,7 +48,7 @@ def _gears(level: str, folder: Path) -> Content:
 
 
 def _set_module(content: Content, level: float) -> None:
-    """Another size of the same teeth: all lengths of the gears but the face width go with the module."""
+    """Scale the teeth: all lengths of the gears except the face width are proportional to the module."""
     _refuse_table(content, "normal_module_mm")
     gears = with_preset(content["gears"]) if "preset" in content["gears"] else content["gears"]
     ratio = level / gears["normal_module_mm"]
@@ -66,7 +66,7 @@ def _refuse_table(content: Content, factor: str) -> None:
 
 
 def _set_key(*place: str) -> Callable[[Content, Any], None]:
-    """The setter of one key within tables, which are made where they are missing."""
+    """Setter of a key within tables, created if missing."""
 
     def change(content: Content, level: Any) -> None:
         table = content
@@ -105,7 +105,7 @@ def _set_condition(key: str) -> Callable[[Content, float], None]:
 
 
 def traced(content: Mapping[str, Any], factor: str) -> dict[str, dict[str, Any]]:
-    """The surfaces that are measured."""
+    """Measured surfaces."""
     found = {name: one for name, one in content["surfaces"].items() if MEASURED.intersection(one)}
     if not found:
         raise InputError("no surface of the study has a trace", where=f"factors.{factor}")

@@ -35,7 +35,7 @@ OF_INTERACTIONS = (
     ResultColumn("factor_2", "factor_2", "the other one", given_unit="text"),
     ResultColumn("share", "share", "share of the variance that both decide only together"),
 )
-"""Columns of ``interactions.csv``, of a full factorial."""
+"""Columns of ``interactions.csv`` of a full factorial."""
 OF_MAIN_EFFECTS = (
     ResultColumn("factor", "factor", "what is varied", given_unit="text"),
     ResultColumn("level", "level", "its level, or the middle of a range of it", given_unit="that of the factor"),
@@ -45,12 +45,12 @@ OF_MAIN_EFFECTS = (
 )
 """Columns of ``main_effects.csv``."""
 OUTSIDE = "share_out_of_range"
-"""ResultColumn of ``runs.csv``: share of the conditions of a run that are outside the model's range."""
+"""Column of ``runs.csv``: share of the conditions of a run outside the model's range."""
 
 
 @dataclass(frozen=True, eq=False)
 class Decided:
-    """What each factor decides of the response: its indices, interactions and main effects, by its name."""
+    """Indices, interactions and main effects of the factors by name."""
 
     response: str
     unit: str
@@ -61,7 +61,7 @@ class Decided:
     main_effects: Mapping[str, MainEffect]
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """The tables by the name of their file."""
+        """Tables by file name."""
         none = np.full((2, len(self.names)), np.nan)
         first = none if self.indices.first_ends is None else self.indices.first_ends
         total = none if self.indices.total_ends is None else self.indices.total_ends
@@ -82,7 +82,7 @@ class Decided:
 
 
 def factor_columns(experiment: Experiment) -> list[ResultColumn]:
-    """The columns of the levels of the factors."""
+    """Columns of the levels of the factors."""
     fields = Factors.model_fields
     return [
         ResultColumn("", _column(name), fields[name].description or "", given_unit=unit_of(name) or "text")
@@ -91,7 +91,7 @@ def factor_columns(experiment: Experiment) -> list[ResultColumn]:
 
 
 def table_columns(experiment: Experiment) -> dict[str, list[ResultColumn]]:
-    """The columns of every table of an experiment."""
+    """Columns of every table of an experiment."""
     levels, design = factor_columns(experiment), experiment.file.design
     response = ResultColumn("", design.response, "mean response of the run")
     runs = [
@@ -106,7 +106,7 @@ def table_columns(experiment: Experiment) -> dict[str, list[ResultColumn]]:
 
 
 def _column(name: str) -> str:
-    """ResultColumn of a factor; the prefix tells it from a condition of the same name.
+    """Column of a factor; the prefix distinguishes it from a condition of the same name.
 
     >>> _column("oil")
     'factor_oil'
@@ -117,9 +117,9 @@ def _column(name: str) -> str:
 def full_factorial(
     experiment: Experiment, progress: Progress = lambda done, of: None, parts: Path | None = None
 ) -> tuple[pd.DataFrame, Decided]:
-    """Every row of every run, and what the factors decide, pairings and conditions among them.
+    """Rows of all runs and the influence of the factors, including pairings and conditions.
 
-    With a folder for parts, finished chunks are saved and those of an earlier run are reused.
+    With a folder for parts, finished chunks are saved, and chunks of an earlier run are reused.
     """
 
     def rows_of(runs: Sequence[Run]) -> pd.DataFrame:
@@ -146,7 +146,7 @@ def full_factorial(
 def random_design(
     experiment: Experiment, progress: Progress = lambda done, of: None, parts: Path | None = None
 ) -> tuple[pd.DataFrame, Decided]:
-    """The runs with their mean responses, and what the factors decide of these; ``parts`` as in `full_factorial`."""
+    """The runs with their mean responses and the influence of the factors; ``parts`` as in `full_factorial`."""
     design = experiment.file.design
     assert design.runs is not None
 
@@ -180,5 +180,5 @@ def _decided(
 
 
 def share_out_of_range(table: pd.DataFrame) -> float:
-    """Share of the conditions of all runs that are outside the model's range."""
+    """Share of the conditions of all runs outside the model's range."""
     return float(table[OUTSIDE].mean() if OUTSIDE in table else (table[VALIDITY] != VALID).mean())

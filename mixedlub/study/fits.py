@@ -1,4 +1,4 @@
-"""Straight lines of the loss over roughness and over area ratio, one of each a condition."""
+"""Straight lines of the loss over roughness and over area ratio at each condition."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 FEWEST_PAIRINGS = 3
-"""Fewest pairings that a straight line says anything of."""
+"""Smallest number of pairings for a meaningful straight line."""
 _LINE = "straight line of power_loss_W over composite_roughness_um, by least squares through all pairings"
 _OVER_AREA = "straight line of power_loss_W over boundary_area_ratio, in the same way"
 OF_FITS = (
@@ -30,7 +30,7 @@ OF_FITS = (
     ResultColumn("area_intercept", "area_ratio_intercept_W", "power loss of that line where no asperities touch"),
     ResultColumn("area_square", "area_ratio_r_squared", "coefficient of determination R² of that line"),
 )
-"""Columns of the fits, behind those of the conditions."""
+"""Columns of the fits, after the conditions."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +50,7 @@ class Line:
 
 
 def straight_line(x: np.ndarray, y: np.ndarray) -> Line:
-    """The line of least squares of y over x along the first axis; not a number where all x agree."""
+    """Least-squares line of y over x along the first axis; NaN if all x are equal."""
     dx, dy = x - x.mean(axis=0), y - y.mean(axis=0)
     across, along, both = (dx**2).sum(axis=0), (dy**2).sum(axis=0), (dx * dy).sum(axis=0)
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -60,24 +60,24 @@ def straight_line(x: np.ndarray, y: np.ndarray) -> Line:
 
 
 def over_roughness(results: Results) -> Line:
-    """The line of loss over composite roughness at each condition."""
+    """Line of loss over composite roughness at each condition."""
     return straight_line(results["composite_roughness"], results["power_loss"])
 
 
 def can_be_fitted(results: Results) -> bool:
-    """Whether the pairings are enough, and rough enough apart, for straight lines."""
+    """Whether the number and roughness range of the pairings suffice for straight lines."""
     roughness = results["composite_roughness"][:, 0, 0, 0]
     return len(np.unique(roughness)) >= FEWEST_PAIRINGS
 
 
 def fit_columns() -> list[ResultColumn]:
-    """Every column of the fits."""
+    """All columns of the fits."""
     sides = ("pinion_surface", "gear_surface")
     return [*(c for c in condition_columns() if c.name not in sides), *OF_FITS]
 
 
 def fits(results: Results) -> pa.Table:
-    """The lines of a study as a table, a row a condition; without rows where the pairings are too few."""
+    """Lines of a study as a table, a row per condition; without rows if there are too few pairings."""
     import pyarrow as pa
 
     line, area = over_roughness(results), straight_line(results["area_ratio"], results["power_loss"])
@@ -94,5 +94,5 @@ def fits(results: Results) -> pa.Table:
 
 
 def fits_table(results: Results) -> LongTable:
-    """The lines of a study, to be written."""
+    """Lines of a study for writing."""
     return LongTable(lambda: [fits(results)], tuple(c.name for c in fit_columns()), about_table(results.study))

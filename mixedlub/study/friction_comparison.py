@@ -1,4 +1,4 @@
-"""All friction laws on one gear pair: along the path of contact, over the slide-to-roll ratio, and for the mesh."""
+"""Comparison of all friction laws on a gear pair: along the path, over the slide-to-roll ratio, and for the mesh."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ from mixedlub.study.schema import Conditions, Options, Pairings
 from profiles.errors import InputError, nearest
 
 FILM_ALONE = {"balance": "none", "film_roughness": "none"}
-"""Options of the laws other than the base model's: they are fitted to smooth films that carry the whole load."""
+"""Options of laws other than the base model's: they are fitted to smooth films carrying the whole load."""
 POINTS = 201
-"""Points along the path of contact, and over the slide-to-roll ratio."""
+"""Number of points along the path of contact and over the slide-to-roll ratio."""
 LARGEST_RATIO = 2.0
-"""Slide-to-roll ratio of a contact whose slower surface is at rest."""
+"""Slide-to-roll ratio of a contact with the slower surface at rest."""
 VALID, OUTSIDE, DIVERGES = "valid", "outside range", "diverges"
 Coefficients = Mapping[str, Mapping[str, float]]
 COLUMNS = {
@@ -39,7 +39,7 @@ COLUMNS = {
     "hertz_pressure": ("hertz_pressure_MPa", 1e-6),
     "film_rise": ("crook_film_rise_K", 1.0),
 }
-"""Columns of a contact point, and the factor from SI to their unit."""
+"""Columns of a contact point, and factor from SI."""
 _LAW = "text: friction law"
 _AT_A_CONTACT = {
     "slide_roll_ratio": "sliding speed over entrainment speed",
@@ -62,7 +62,7 @@ TABLES = {
 class Comparison:
     """Friction laws at one condition of a study with one pairing, and ``every`` pairing at that condition.
 
-    ``coefficients`` are the user's, by law.
+    ``coefficients``: values from the user, by law.
     """
 
     study: Study
@@ -71,16 +71,16 @@ class Comparison:
 
     @cached_property
     def laws(self) -> tuple[FrictionLaw, ...]:
-        """The laws that have all their coefficients."""
+        """Laws with all coefficients given."""
         return complete(self.coefficients)
 
     @property
     def left_out(self) -> dict[str, list[str]]:
-        """Laws without them, each with the coefficients that it lacks."""
+        """Laws with missing coefficients, and the names of these."""
         return {law.name: lacks for law in catalogue().values() if (lacks := _lacks(law, self.coefficients))}
 
     def along_path(self) -> pd.DataFrame:
-        """Friction of every law over the pinion roll angle, the pitch point among its points."""
+        """Friction of every law over the pinion roll angle, including the pitch point."""
         pair = self.study.pair
         angles = np.linspace(pair.path_start, pair.path_end, POINTS) / pair.base_radius[0]
         angles = np.unique(np.append(angles, pair.pitch_point / pair.base_radius[0]))
@@ -90,7 +90,7 @@ class Comparison:
         return self._table("roll_angle_deg", np.degrees(angles), inputs)
 
     def over_ratio(self) -> pd.DataFrame:
-        """Friction of every law over the slide-to-roll ratio, in the contact that the pitch point has."""
+        """Friction of every law over the slide-to-roll ratio, in the contact at the pitch point."""
         pair = self.study.pair
         _, inputs = self._at(np.array([pair.pitch_point / pair.base_radius[0]]))
         ratio = np.linspace(0.0, LARGEST_RATIO, POINTS)
@@ -98,7 +98,7 @@ class Comparison:
         return self._table("slide_roll_ratio", ratio, inputs)
 
     def _at(self, angles: np.ndarray) -> tuple[Mesh, dict[str, Any]]:
-        """The contact points at pinion roll angles (rad), and their chain inputs."""
+        """Contact points at pinion roll angles (rad), and their chain inputs."""
         mesh = at_roll_angle(self.study.pair, self.study.rig.sharing, angles, slices=1)
         with np.errstate(invalid="ignore"):  # points of no quadrature have no weights for a mean
             return mesh, condition_inputs(self.study.file, self.study.pair, mesh, self.study.oil)
@@ -109,7 +109,7 @@ class Comparison:
         return {**inputs, **surfaces, **own}
 
     def _table(self, name: str, place: np.ndarray, inputs: Mapping[str, Any]) -> pd.DataFrame:
-        """One row a law and place: the conditions there, friction, and whether the law holds."""
+        """Table with a row per law and place: conditions, friction, and validity of the law."""
         given, options = self._inputs(inputs), _base_options(self.study)
         chain, film_alone = map(self.study.plan.chain, (options, options.model_copy(update=FILM_ALONE)))
         parts = []
@@ -128,7 +128,7 @@ class Comparison:
 
 
 def complete(coefficients: Coefficients) -> tuple[FrictionLaw, ...]:
-    """The laws that have all their coefficients, with the range that these give."""
+    """Laws with all coefficients given, with the resulting ranges."""
     found = (law for law in catalogue().values() if not _lacks(law, coefficients))
     return tuple(law.bounded(coefficients.get(law.name, {})) for law in found)
 
@@ -139,14 +139,14 @@ def _lacks(law: FrictionLaw, coefficients: Coefficients) -> list[str]:
 
 
 def judged(law: FrictionLaw, state: Mapping[str, Any], shape: tuple[int, ...]) -> np.ndarray:
-    """Whether the law holds at each place."""
+    """Whether a law holds at each place."""
     outside = np.broadcast_to(law.outside(state).ravel(), shape)
     divergent = np.broadcast_to(law.divergent(state).ravel(), shape)
     return np.where(divergent, DIVERGES, np.where(outside, OUTSIDE, VALID))
 
 
 def _base_options(study: Study) -> Options:
-    """The options of a study with the friction of the base model."""
+    """Options of a study with the friction of the base model."""
     return study.file.options.model_copy(update={"friction": BASE, "friction_coefficients": {}})
 
 
@@ -157,7 +157,7 @@ def compared(
     pairing: str | None = None,
     **conditions: float | None,
 ) -> Comparison:
-    """The comparison at one condition: what is not given is the last level of the study, and its first pairing."""
+    """Comparison at one condition; defaults: the last level of each condition, and the first pairing."""
     levels = study.file.conditions
     chosen = {
         name: [given[-1] if (wanted := conditions.get(name)) is None else wanted]
@@ -182,14 +182,14 @@ def _altered(study: Study, file: Any) -> Study:
 
 
 def _own(study: Study, coefficients: Coefficients) -> dict[str, Mapping[str, float]]:
-    """The coefficients that the study itself gives its friction law."""
+    """Coefficients of the friction law in the study itself."""
     options = study.file.options
     given = options.friction_coefficients
     return {options.friction: given} if given and options.friction not in coefficients else {}
 
 
 def checked(coefficients: Coefficients) -> dict[str, Mapping[str, float]]:
-    """The coefficients by law; a law or coefficient that does not exist is refused."""
+    """Coefficients by law; raises an error for an unknown law or coefficient."""
     found: dict[str, Mapping[str, float]] = {}
     for name, given in coefficients.items():
         find(name, "--coefficients")
@@ -201,7 +201,7 @@ def checked(coefficients: Coefficients) -> dict[str, Mapping[str, float]]:
 
 
 def of_mesh(study: Study, coefficients: Coefficients) -> Iterator[tuple[FrictionLaw, Results]]:
-    """The results of a study with each law that has its coefficients, effects left out."""
+    """Results of a study with each law that has its coefficients, without effects."""
     values = {name: getattr(study.file.options, name) for name in type(study.file.options).model_fields}
     for law in complete(coefficients):
         own = {"friction": law.name, "friction_coefficients": dict(coefficients.get(law.name, {}))}

@@ -1,4 +1,4 @@
-"""What a study's choice of friction law asks of its other inputs, checked before anything is computed."""
+"""Checks of a study's inputs against its friction law, before the computation."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ PLACE = "options.friction_coefficients"
 
 
 def check_coefficients(options: Options, place: str = PLACE) -> None:
-    """Refuse coefficients that the law does not have, and those that it lacks; report the defaults taken."""
+    """Raise an error for unknown or missing coefficients; report defaults."""
     law, given = friction.find(options.friction), options.friction_coefficients
     law.check_given(given, place, f"mixedlub friction-laws {law.name}")
     assumed = [f"{c.name} = {c.default:g}" for c in law.coefficients if c.name not in given]
@@ -28,7 +28,7 @@ def check_coefficients(options: Options, place: str = PLACE) -> None:
 
 
 def check_oil(law: FrictionLaw, given: Mapping[str, float], oil: Lubricant, place: str = PLACE) -> None:
-    """Refuse a law that is for one oil alone with another one."""
+    """Raise an error if a law valid for a single oil is used with another."""
     for name, one in law.of_oil.items():
         wanted = given.get(name, 0.0)
         own = float(oil.inputs(np.array(one.temperature))[one.quantity]) / one.factor
@@ -43,7 +43,7 @@ def check_oil(law: FrictionLaw, given: Mapping[str, float], oil: Lubricant, plac
 
 
 def check_viscosity(options: Options, oil: Lubricant) -> None:
-    """Refuse the modulus equation of an oil without its constants; say where an oil has them and they are not used."""
+    """Raise an error for the modulus equation with an oil without its constants; report unused constants."""
     if options.viscosity_law == "modulus":
         if oil.pressure_modulus is None:
             rule = "needs pressure_modulus_MPa and pressure_modulus_slope in [lubricant], or an oil that has them"
@@ -54,7 +54,7 @@ def check_viscosity(options: Options, oil: Lubricant) -> None:
 
 
 def check_friction(file: StudyFile, model: Model) -> None:
-    """Refuse options that the friction law ignores; report what it does not read, and where it diverges."""
+    """Raise an error for options ignored by the friction law; report unread quantities and divergence."""
     options = file.options
     for option in ignored(options, model):
         if option in options.model_fields_set:

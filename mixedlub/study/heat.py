@@ -1,4 +1,4 @@
-"""What warms the teeth of a study: the loss of its model without effects, at every condition."""
+"""Heat of the mesh in a study: loss of the model without effects, at every condition."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from profiles.errors import InputError
 
 LOSS = "power_loss"
 BULK = "bulk_temperature"
-"""Effect that warms the teeth."""
+"""Effect of the tooth temperature."""
 
 
 def heat_inputs(model: Model, inputs: Inputs, shape: tuple[int, int, int, int], points: int) -> dict[str, Any]:
     """Inputs of effects that read the heat of the mesh, by a model without effects that gives the power loss.
 
-    The loss (W) has an axis for each condition, and bands of traces keep it. The scale (W) at which laws of
-    other exponents than the standard's meet cancels with that of the standard.
+    The loss (W) has an axis for each condition; bands of traces use the same loss. The scale (W), at which laws with
+    different exponents agree, cancels for the exponent of the standard.
     """
     loss = np.empty(shape)
     with np.errstate(all="ignore"):
@@ -33,7 +33,7 @@ def heat_inputs(model: Model, inputs: Inputs, shape: tuple[int, int, int, int], 
 
 
 def check_exponent(parameters: Parameters) -> None:
-    """Refuse another exponent of the heat than the standard's: it needs a measured loss at which the two agree."""
+    """Raise an error for an exponent of the heat other than the standard's: it needs a measured loss for the scale."""
     given = parameters.get(BULK, {}).get("exponent", TOOTH_RISE_EXPONENT)
     if given != TOOTH_RISE_EXPONENT:
         rule = (
@@ -44,7 +44,7 @@ def check_exponent(parameters: Parameters) -> None:
 
 
 def rating_inputs(inputs: Inputs, parameters: Parameters) -> Mapping[str, Any]:
-    """Oil as it enters, before any effect warms it, and by how much the teeth are warmer than it (K)."""
+    """Oil temperature at the inlet, before any effect warms the oil, and temperature rise of the teeth over it (K)."""
     law: Law = rise_of_teeth
     rise: Any = 0.0
     if BULK in parameters:

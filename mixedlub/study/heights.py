@@ -1,7 +1,7 @@
 """Height distributions of the surfaces of a study in the contact integrals of Greenwood and Williamson.
 
-Mean plane and standard deviation of the summits are those of Nayak and McCool; the shape of their distribution is taken
-to be that of the surface: of its traces, or of two normal processes fitted to them.
+Mean plane and standard deviation of the summits follow Nayak and McCool; the shape of their distribution is taken from
+the surface: from its traces, or from two normal processes fitted to them.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from roughness.height_shapes import (
 
 GAUSSIAN, PLATEAU, MEASURED, AUTO = "gaussian", "plateau", "measured", "auto"
 OF_VERDICT = {"gaussian": GAUSSIAN, "gaussian_bulk": GAUSSIAN, "plateau": PLATEAU, "not_gaussian": MEASURED}
-"""Heights that are taken at a verdict of the normal probability plot."""
+"""Height distribution at each verdict of the normal probability plot."""
 WORDS = {GAUSSIAN: "Gaussian heights", PLATEAU: "a bi-Gaussian plateau", MEASURED: "its measured heights"}
 NORMAL = -1
 """Row of a pairing of two surfaces with normal heights, which need no table."""
@@ -36,14 +36,14 @@ NORMAL = -1
 
 @dataclass(frozen=True, eq=False)
 class HeightTables:
-    """Logarithms of F_1 and F_3/2, a row for each pairing that has other than normal heights; ``rows`` by pairing."""
+    """Logarithms of F_1 and F_3/2, a row per pairing with non-normal heights; ``rows`` by pairing."""
 
     area: np.ndarray
     load: np.ndarray
     rows: np.ndarray
 
     def laws(self) -> dict[str, Law]:
-        """The laws of area and load by the quantity that they give."""
+        """Laws of area and load by output quantity."""
         return {"area_ratio": _area_law(self.area), "asperity_pressure": _load_law(self.load)}
 
 
@@ -96,7 +96,7 @@ def _load_law(table: np.ndarray) -> Law:
 def height_tables(
     option: str, rig: Rig, surfaces: Mapping[str, Surface], pairings: Sequence[tuple[str, str]]
 ) -> HeightTables | None:
-    """The tables of a study; none where all heights are normal."""
+    """Tables of a study; None if all heights are normal."""
     if option == GAUSSIAN:
         return None
     measured = [name for name in surfaces if rig.file.surfaces[name].is_measured]
@@ -126,7 +126,7 @@ def height_tables(
 
 
 def _shape(name: str, rig: Rig, option: str) -> HeightShape | None:
-    """The heights of a measured surface; None for normal ones. What is taken is reported."""
+    """Height distribution of a measured surface; None for normal heights. The choice is reported."""
     from roughness import normal_probability
     from roughness.probability import two_lines
 

@@ -1,4 +1,4 @@
-"""The chain a study runs under its options: the chosen laws, put where the base chain has its own."""
+"""The chain of a study: the base chain with the laws chosen by options."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from mixedlub.study.schema import Options
 
 
 def at_mean_pressure(law: Law) -> Law:
-    """A law with the mean Hertz pressure in place of the largest; one that reads no pressure as it is.
+    """A law at the mean instead of the largest Hertz pressure; unchanged if it does not read the pressure.
 
     >>> from mixedlub.laws.oil import roelands_viscosity
     >>> round(float(at_mean_pressure(roelands_viscosity)(0.01489, 14.81e-9, 0.9642e9)), 1)
@@ -43,7 +43,7 @@ def at_mean_pressure(law: Law) -> Law:
 
 
 def at_hardness(strength: float, hardness: float) -> Law:
-    """Pressure of asperities of which plasticity of this strength lets those yield that `asperity_plasticity` does.
+    """Pressure of asperities with the given strength of plasticity, as in effect `asperity_plasticity`.
 
     >>> gap = (0.1806, 4.4106e10, 7.8332e-6, 0.48970e-6, 226.374e9)
     >>> [round(float(at_hardness(strength, 6e9)(*gap)) / 1e9, 1) for strength in (0.0, 1.0)]
@@ -61,7 +61,7 @@ def at_hardness(strength: float, hardness: float) -> Law:
 
 
 def study_chain(options: Options, asperities: Mapping[str, Law] = MappingProxyType({})) -> Chain:
-    """The gear chain with the laws that the options ask for, and with those for ``asperities`` of other heights.
+    """Gear chain with the chosen laws, and with laws of ``asperities`` for non-normal heights.
 
     >>> dict(study_chain(Options(effective_viscosity="secant")))["shear_stress"].__name__
     'ree_eyring_secant'
@@ -80,7 +80,7 @@ def study_chain(options: Options, asperities: Mapping[str, Law] = MappingProxyTy
 
 
 def with_rough_film(base: Chain) -> Chain:
-    """A chain whose film is that of surfaces with a lay; under a balance, the film that carries the whole load.
+    """Chain with the film of surfaces with a lay; under a balance, it applies to the film carrying the whole load.
 
     >>> names = [name for name, _ in with_rough_film(GEAR_LOSS)]
     >>> names[names.index("smooth_film") :][:3]
@@ -104,13 +104,13 @@ FURTHER: Chain = (
     ("sliding_integral", loss.sliding_integral),
     ("load_loss_factor", loss.load_loss_factor),
 )
-"""Quantities that a study gives beyond those of the base model."""
+"""Quantities of a study beyond the base model."""
 RATED: Chain = (("mean_roughness", contact.mean_roughness), ("specific_film", safety.specific_film))
-"""Quantities that it gives as well where it is to hold films against a limit."""
+"""Additional quantities of a study that compares films with a limit."""
 
 
 def with_friction(base: Chain, law: Law) -> Chain:
-    """A gear chain with another law of friction, and before it what such laws read beyond the base model.
+    """Gear chain with another friction law, preceded by quantities that such laws read beyond the base model.
 
     >>> from mixedlub.friction.iso_tc60 import iso_tc60
     >>> dict(with_friction(GEAR_LOSS, iso_tc60))["friction"].__name__
@@ -122,7 +122,7 @@ def with_friction(base: Chain, law: Law) -> Chain:
 
 
 def at_pitch_point(law: Law) -> Law:
-    """A law of a line contact at the pitch point, where one tooth pair carries the whole load.
+    """A line-contact law at the pitch point, with one tooth pair carrying the whole load.
 
     >>> tuple(inspect.signature(at_pitch_point(contact.line_hertz_pressure)).parameters)
     ('mesh_line_load', 'pitch_radius', 'reduced_modulus')
@@ -131,7 +131,7 @@ def at_pitch_point(law: Law) -> Law:
 
 
 def renamed(law: Law, names: Mapping[str, str]) -> Law:
-    """A law that reads other quantities in place of some of its own.
+    """A law with some of its arguments renamed.
 
     >>> tuple(inspect.signature(renamed(rough_film, {"smooth_film": "film_thickness"})).parameters)
     ('film_thickness', 'm0', 'peklenik_number')
@@ -164,11 +164,11 @@ BEFORE_FRICTION: Chain = (
     ("pitch_pressure", at_pitch_point(contact.line_hertz_pressure)),
     ("pitch_minimum_film", at_pitch_point(dowson_higginson)),
 )
-"""What friction laws read beyond the quantities of the base model."""
+"""Quantities read by friction laws beyond the base model."""
 
 
 def ignored(options: Options, model: Model) -> tuple[str, ...]:
-    """Options that choose a law which nothing reads in the model, because of the law of friction."""
+    """Options choosing a law that no step reads because of the friction law."""
     if options.friction == friction.BASE:
         return ()
     made = {name for step in model.steps for name in step.outputs}

@@ -1,4 +1,4 @@
-"""Power loss by origin: what each effect outside the mesh adds to it."""
+"""Power loss by origin: contribution of each effect outside the mesh."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ TOTAL = "power_loss"
 
 
 def losing(effects: Iterable[Effect]) -> tuple[str, ...]:
-    """The effects that add a loss outside the mesh."""
+    """Effects that add a loss outside the mesh."""
     return tuple(e.id for e in effects if e.acts_on == (TOTAL,))
 
 
 def by_origin(model: Model) -> Model:
-    """The same model, which also gives the loss of each effect that adds to the total."""
+    """The model with additional outputs: the loss of each effect outside the mesh."""
     part = copy.copy(model)
     part.steps = tuple(
         replace(step, outputs=(*step.outputs, loss_of(step.effect)), law=_with_growth(step.law))
@@ -33,7 +33,7 @@ def by_origin(model: Model) -> Model:
 
 
 def _with_growth(law: Law) -> Law:
-    """An effect on the total that also returns by how much it changes it.
+    """An effect on the total that also returns its change of the total.
 
     >>> _with_growth(lambda total, more, *, strength: total + strength * more)(100.0, 2.0, strength=3.0)
     (106.0, 6.0)

@@ -1,4 +1,4 @@
-"""Parts of a grid of conditions, and the inputs of a part."""
+"""Parts of a grid of conditions, and their inputs."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 PIECE_POINTS = 80_000
-"""Contact points that are computed at once: their arrays fit the cache."""
+"""Contact points computed at once: their arrays fit the cache."""
 PIECE_PAIRINGS = 64
 
 Block = tuple[slice, slice, slice, slice]
@@ -44,7 +44,7 @@ def reach(shape: tuple[int, ...], points: int, most_points: int, most_pairings: 
 
 
 def taken(inputs: Inputs, ranges: Sequence[slice]) -> dict[str, Any]:
-    """The inputs sliced along the leading axes; axes of length one are kept."""
+    """Inputs sliced along the leading axes; axes of length one are kept."""
 
     def part(value: Any) -> Any:
         if np.ndim(value) != 5:

@@ -63,31 +63,31 @@ WANTED = (
     "load_loss_factor",
 )
 BALANCED = ("asperity_pressure", "full_load_film", "film_load_share", "least_film_share")
-"""What is wanted as well where film and asperities share the load."""
+"""Additional quantities if film and asperities share the load."""
 SOLIDS = ("solid_conductivity", "solid_density", "solid_heat_capacity")
-"""Inputs of the surfaces that most studies have alike for all pairings: then what follows is computed once."""
+"""Inputs of the surfaces usually equal for all pairings, so that dependent steps are computed once."""
 HEAT = "nominal_loss"
 """Input of effects that read the heat of the mesh."""
 MOST_CONTACT_RATIO = 2.0
-"""Largest contact ratio for which Ohlendorf's loss factor is made."""
+"""Largest contact ratio for which Ohlendorf's loss factor is valid."""
 MOST_FRICTION = 1e300
-"""Largest friction coefficient that is a number: a law that diverges has more."""
+"""Largest friction coefficient accepted as finite; a diverging law exceeds it."""
 
 BY_AREA = (
     "asperities that carry nearly all of the load get almost no friction, and the order of finishes can reverse, "
     'because the film that gives way leaves them little area and "tallian" weights friction by it; take "load_weighted"'
 )
-"""What is wrong with friction by area where film and asperities share the load."""
+"""Problem of friction by area if film and asperities share the load."""
 
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """Everything the computation needs, in a form that can be sent to other machines.
+    """All inputs of the computation, in a form that can be sent to other machines.
 
-    ``inputs`` hold SI arrays of up to five axes (pairing, oil temperature, torque, speed, mesh), length one
-    on each axis they do not depend on; ``shape`` is the number of levels of the first four, ``points`` of
-    the last. ``bands`` has the inputs of the surfaces from which the bands of the results are computed,
-    ``heights`` the contact integrals of other than normal heights.
+    ``inputs``: SI arrays of up to five axes (pairing, oil temperature, torque, speed, mesh), of length one on axes they
+    do not depend on. ``shape``: number of levels of the first four axes. ``points``: length of the mesh axis.
+    ``bands``: inputs of the surfaces for the bands of the results. ``heights``: contact integrals of non-normal
+    heights.
     """
 
     inputs: Mapping[str, Any]
@@ -105,10 +105,7 @@ class Plan:
         return find(sorted(self.parameters)) if self.parameters else ()
 
     def model(self, also: Iterable[str] = ()) -> Model:
-        """The chain of the chosen options with the active effects, and the loss of each.
-
-        ``also`` names quantities wanted beside its own.
-        """
+        """Chain of the chosen options with the active effects and their losses; ``also``: additional outputs."""
         return by_origin(self._model((*also, *(limit.quantity for limit in self.limits))))
 
     def _model(self, checked: Iterable[str]) -> Model:
@@ -121,12 +118,12 @@ class Plan:
 
     @property
     def rates_films(self) -> bool:
-        """Whether films are held against that at which micropitting arises."""
+        """Whether films are compared with the limit of micropitting."""
         return self.safety is not None and self.safety.permissible_film_ratio is not None
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
-        """The range of every active effect and chosen law that has one, at points of the path."""
+        """Ranges of all active effects and chosen laws at points of the path."""
         found = law_limits(self._model(()).steps, self.effects, self.parameters)
         if self.options.film_roughness != "none":
             found += of_law("rough_film", {"film_over_roughness": (THINNEST, np.inf)})
@@ -136,16 +133,16 @@ class Plan:
 
     @property
     def _of_heights(self) -> Mapping[str, Law]:
-        """The laws of asperities with other than normal heights, by the quantity that they give."""
+        """Laws of asperities with non-normal heights, by output quantity."""
         return {} if self.heights is None else self.heights.laws()
 
     def chain(self, options: Options) -> Chain:
-        """The chain of some options with the heights of this study."""
+        """Chain of options with the heights of this study."""
         return study_chain(options, self._of_heights)
 
     @property
     def friction(self) -> FrictionLaw | None:
-        """The friction law that takes the place of the base model's."""
+        """Friction law that replaces the base model's."""
         if self.options.friction == friction.BASE:
             return None
         return friction.find(self.options.friction).bounded(self.options.friction_coefficients)
@@ -157,7 +154,7 @@ class Plan:
 
     @property
     def losing(self) -> tuple[str, ...]:
-        """The active effects that add a loss outside the mesh."""
+        """Active effects that add a loss outside the mesh."""
         return losing(self.effects)
 
     @property
@@ -172,7 +169,7 @@ class Plan:
 
     @property
     def asperities(self) -> Law:
-        """Law of the pressure that asperities would carry: yielding ones where plasticity is on."""
+        """Law of the pressure of the asperities; with yielding if plasticity is on."""
         plastic = self.parameters.get("asperity_plasticity")
         if self.heights is not None:
             return self._of_heights[ASPERITY_LOAD.quantity]
@@ -180,13 +177,13 @@ class Plan:
 
     @cached_property
     def asperities_read(self) -> tuple[str, ...]:
-        """The quantities that this law reads."""
+        """Quantities read by the law `asperities`."""
         return tuple(signature(self.asperities).parameters)
 
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """A study file, read and resolved; ``notes`` lists the assumptions made."""
+    """A study file, read and resolved; ``notes``: assumptions made."""
 
     name: str
     file: StudyFile
@@ -202,13 +199,13 @@ class Study:
 
     @property
     def needs_quotes(self) -> bool:
-        """Whether a name of a surface needs quotes in a CSV file, or is taken as a formula."""
+        """Whether a surface name needs quotes in a CSV file or would be taken as a formula."""
         names = {name for both in self.pairings for name in both}
         return any(escaped(name) != name or any(mark in name for mark in ',;"\n\r') for name in names)
 
     @property
     def conditions(self) -> int:
-        """Rows of the result."""
+        """Number of rows of the result."""
         return int(np.prod(self.plan.shape))
 
 
@@ -238,7 +235,7 @@ def read_study(path: str | PathLike[str], file: StudyFile | None = None) -> Stud
 
 
 def _check_finite(study: Study) -> None:
-    """Refuse a study with an input that is not finite, and name the level."""
+    """Raise an error for an input that is not finite, naming its level."""
     levels = study.file.conditions
     columns = ("", "oil_temperature_C", "torque_Nm", "speed_rpm")
     for name, value in study.plan.inputs.items():
@@ -259,7 +256,7 @@ def counted(count: int, thing: str) -> str:
 
 
 def factors(study: Study) -> tuple[str, ...]:
-    """The factors of a study, each with its number of levels."""
+    """Factors of a study with their number of levels."""
     refuse_other(study, Study, "ml.study.read_study(...)", "study.factors: study")
     things = ("pairing", "oil temperature", "torque", "speed")
     pairings, oil, torque, speed = map(counted, study.plan.shape, things)
@@ -267,7 +264,7 @@ def factors(study: Study) -> tuple[str, ...]:
 
 
 def pairings_of(section: Pairings | None, known: Mapping[str, object]) -> tuple[tuple[str, str], ...]:
-    """Pinion and gear surface of each pairing; every unordered pair by default.
+    """Pinion and gear surface of each pairing; by default every unordered pair.
 
     >>> pairings_of(None, {"a": 0, "b": 0})
     (('a', 'a'), ('a', 'b'), ('b', 'b'))
@@ -327,7 +324,7 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
 
 
 def _check_film_roughness(file: StudyFile, surfaces: Mapping[str, Surface]) -> None:
-    """Refuse a lay in the film where that of a surface is unknown, or where another law has it."""
+    """Raise an error for a lay in the film if a surface's lay is unknown or another law includes it."""
     chosen, where = file.options.film_roughness, "options.film_roughness"
     if chosen == "none":
         return
@@ -345,7 +342,7 @@ def _check_film_roughness(file: StudyFile, surfaces: Mapping[str, Surface]) -> N
 
 
 def condition_inputs(file: StudyFile, pair: GearPair, points: Mesh, oil: Lubricant) -> dict[str, Any]:
-    """Inputs shared by all pairings."""
+    """Inputs common to all pairings."""
     levels, options = file.conditions, file.options
     of_gear = options.conditions_of == "gear"
     torques = np.array(levels.torque_Nm) / (pair.gear_ratio if of_gear else 1.0)
@@ -366,7 +363,8 @@ def condition_inputs(file: StudyFile, pair: GearPair, points: Mesh, oil: Lubrica
 
 
 def mesh_inputs(points: Mesh, share: np.ndarray, torque: np.ndarray, speed: np.ndarray) -> dict[str, Any]:
-    """Inputs of a mesh by its load share; torque (N m) and speed (rad/s) of the pinion end in an axis of one."""
+    """Inputs of a mesh by its load share; torque (N m) and speed (rad/s) of the pinion have a last axis of length
+    one."""
     pair = points.pair
     mean = points.weight * points.face_fraction * (share > LEAST_SHARE)
     return {
@@ -378,7 +376,7 @@ def mesh_inputs(points: Mesh, share: np.ndarray, torque: np.ndarray, speed: np.n
 
 
 def surface_inputs(pairs: list[tuple[Surface, Surface]]) -> dict[str, np.ndarray]:
-    """Inputs of the surfaces, pairing by pairing."""
+    """Inputs of the surfaces by pairing."""
     first, second = [a for a, _ in pairs], [b for _, b in pairs]
     both = {**paired(first, second), "mean_over_rms": mean_over_rms(first, second)}
     alike = {name for name in SOLIDS if np.ptp(both[name]) == 0.0}

@@ -37,7 +37,7 @@ WRITTEN = ("index.html", GIVEN, RESOLVED)
 
 
 def resolved(study: Study) -> dict[str, Any]:
-    """Every input as used, by the keys of a study file and with all defaults, and the quantities derived from them."""
+    """All inputs as used, by the keys of a study file and with defaults, and the quantities derived from them."""
     file, pair = study.file, study.pair
     inputs = file.model_dump(by_alias=True, exclude_none=True)
     inputs["gears"] |= {
@@ -69,7 +69,7 @@ def resolved(study: Study) -> dict[str, Any]:
 
 
 def _base(study: Study) -> dict[str, str]:
-    """Base stock of the oil, where it is given or its typical values replace missing ones."""
+    """Base stock of the oil, if given or if its typical values replace missing ones."""
     given = study.file.lubricant and study.file.lubricant.base
     if given:
         return {"base": given}
@@ -77,7 +77,7 @@ def _base(study: Study) -> dict[str, str]:
 
 
 def assumed(study: Study) -> Iterator[str]:
-    """Dotted keys that the run needs and the file leaves out, so that defaults apply."""
+    """Dotted keys needed by the run and absent from the file, so that defaults apply."""
     file = study.file
     yield from _left_out(file, "", ("boundary_friction",))
     yield from _left_out(file.gears, "gears", tuple(Gears.model_fields))
@@ -132,7 +132,7 @@ def _oil(oil: Lubricant) -> dict[str, Any]:
 
 
 def _coefficient(oil: Lubricant) -> dict[str, Any]:
-    """The pressure-viscosity coefficient: at both temperatures, or at the first with its way to others."""
+    """Pressure-viscosity coefficient: at both temperatures, or at the first with the rule for others."""
     both = [_plain(alpha * 1e9) for alpha in oil.pressure_viscosity]
     if oil.carried == LINEAR:
         return {"pressure_viscosity_per_GPa": both}
@@ -150,7 +150,7 @@ def _plain(value: float) -> float:
 
 
 def as_moments(surface: Surface, section: SurfaceSection) -> dict[str, Any]:
-    """The keys of a surface given by its moments, whether stated or computed from a trace."""
+    """Keys of a surface given by moments, either stated or computed from a trace."""
     body = section.model_dump(
         include={"coating", "thermal_conductivity_W_mK", "density_kg_m3", "specific_heat_J_kgK"}, exclude_none=True
     )
@@ -162,7 +162,7 @@ def as_moments(surface: Surface, section: SurfaceSection) -> dict[str, Any]:
 
 
 def asperities(surface: Surface) -> dict[str, float]:
-    """Roughness and asperities of one surface, from its moments; of one with a lay, those of its isotropic stand-in."""
+    """Roughness and asperities of a surface, from its moments; with a lay, of its isotropic equivalent."""
     m2, m4 = ((across * (along or across)) ** 0.5 for across, along in _directions(surface))
     moments = (np.array(surface.m0), np.array(m2), np.array(m4))
     with np.errstate(divide="ignore"):
@@ -185,7 +185,7 @@ def _directions(surface: Surface) -> tuple[tuple[float, float | None], tuple[flo
 
 
 def record_files(folder: Path, study: Study, file: Path, given: bytes) -> dict[str, str | bytes]:
-    """The study file as given, unless it lies in the folder of the result, and the record of the result."""
+    """Record of the result, and the study file as given unless it lies in the folder of the result."""
     record = {
         "schema": SCHEMA,
         "title": study.file.title,
@@ -205,7 +205,7 @@ def study_origin(study: Study, file: Path) -> Origin:
 
 @contextmanager
 def running(folder: Path, study: Study) -> Iterator[None]:
-    """Context that marks the folder as in use; refused while a run of another study writes there."""
+    """Context marking a folder as in use; raises an error while a run of another study writes there."""
     whose = input_fingerprint(study.plan)[:16]
     own = folder / f".running-{whose}-{os.getpid()}"
     own.touch()

@@ -42,21 +42,21 @@ if TYPE_CHECKING:
     import xarray as xr
 
 LEVELS = ("oil_temperature_C", "torque_Nm", "speed_rpm")
-"""Conditions of a study in the order of the axes of its arrays."""
+"""Conditions of a study in the order of the array axes."""
 _ROWS = 100_000
 
 
 SUMMARISED = ("power_loss", "mean_friction", "film_parameter")
-"""Outputs whose ranges the summary gives."""
+"""Outputs with a range in the summary."""
 LONGEST_TITLE = 36
-"""Characters of a title in the summary, which is to fit a line."""
+"""Largest number of characters of a title in the summary, which must fit a line."""
 
 
 @dataclass(frozen=True, eq=False)
 class Results:
     """Outputs of a study in SI by name, each of shape (pairing, oil temperature, torque, speed).
 
-    `to_xarray` and `to_pandas` have them in the units of the table. It prints as a summary:
+    `to_xarray` and `to_pandas` return them in the units of the table. Printed as a summary:
 
     >>> import mixedlub as ml
     >>> from pathlib import Path
@@ -101,7 +101,7 @@ class Results:
 
     @cached_property
     def flags(self) -> Mapping[str, np.ndarray]:
-        """Grades of the conditions, 0 within the range of the model, by the code of the finding that says why."""
+        """Grades of the conditions by code of the finding; 0: within the range of the model."""
         return flags_of(self.study.plan, self.values, self.study.mesh.notes)
 
     @cached_property
@@ -111,13 +111,13 @@ class Results:
 
     @property
     def columns(self) -> tuple[ResultColumn, ...]:
-        """The columns of outputs that the table of this study has; that of the validity is behind ``FIRST``."""
+        """Columns of the outputs of this study; the validity follows ``FIRST``."""
         known = (*COLUMNS.values(), *loss_columns(self.study.plan.losing))
         return tuple(column for column in known if column.output in self.values)
 
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
-        """What a reader should know: doubts, conditions outside the range of the model, then assumptions."""
+        """Findings: doubts, conditions outside the range of the model, then assumptions."""
         return tuple(gravest_first((*out_of_range(self), *self.study.notes)))
 
     def __getitem__(self, name: str) -> np.ndarray:
@@ -125,9 +125,9 @@ class Results:
         return self.values[name]
 
     def to_xarray(self) -> xr.Dataset:
-        """The result as labelled arrays: the columns of the table over pairing and conditions, with meanings.
+        """The result as labelled arrays: columns of the table over pairing and conditions, with meanings.
 
-        The attribute ``findings`` has the notes, cautions and doubts as texts.
+        The attribute ``findings`` lists notes, cautions and doubts as text.
         """
         import xarray as xr
 
@@ -153,13 +153,13 @@ class Results:
         return xr.Dataset(variables, coordinates, whole)
 
     def to_pandas(self) -> pd.DataFrame:
-        """The rows of the table that `write` writes."""
+        """Rows of the table as written by `write`."""
         import pandas as pd
 
         return pd.concat([table.to_pandas() for table in self.tables()], ignore_index=True)
 
     def tables(self) -> Iterator[pa.Table]:
-        """The rows as tables of bounded size, pairing by pairing."""
+        """Rows as tables of bounded size, by pairing."""
         import pyarrow as pa
 
         levels = self.study.file.conditions
@@ -182,7 +182,7 @@ class Results:
             yield pa.table(columns)
 
     def long_table(self) -> LongTable:
-        """The rows with their metadata, to be written."""
+        """Rows with metadata for writing."""
         return LongTable(
             self.tables,
             tuple(next(self.tables()).column_names),
@@ -192,17 +192,17 @@ class Results:
         )
 
     def write(self, csv_path: Path, parquet_path: Path) -> None:
-        """The rows as CSV and Parquet."""
+        """Write the rows as CSV and Parquet."""
         write_long(self.long_table(), every_column(self.study.plan.losing), csv_path, parquet_path)
 
 
 def about_table(study: Study) -> dict[str, str]:
-    """The metadata of a table of a study."""
+    """Metadata of a table of a study."""
     return {"title": study.file.title, "fingerprint": checkpoint.fingerprint(study.plan), **versions()}
 
 
 def versions() -> dict[str, str]:
-    """Versions of the packages that a result depends on."""
+    """Versions of the packages that affect a result."""
     return {"mixedlub": installed_version(), "NumPy": np.__version__, "Python": sys.version.split()[0]}
 
 
@@ -214,7 +214,7 @@ def run_study(
     threads: int | None = None,
     progress: Callable[[int, int], None] = lambda done, of: None,
 ) -> Results:
-    """Run a study; with a folder for parts, finished blocks are saved and those of an earlier run are reused."""
+    """Run a study; with a folder for parts, finished blocks are saved, and blocks of an earlier run are reused."""
     refuse_other(study, Study, "ml.study.read_study(...)", "study.run_study: study")
     values: dict[str, np.ndarray] = {}
     todo = batch.blocks(study.plan)
@@ -238,20 +238,20 @@ def run_study(
 
 
 def results_of(study: Study, state: Mapping[str, Any]) -> Results:
-    """The results of a study all of whose contact points are computed, as `Plan.model` has them."""
+    """Results of a study from the state of `Plan.model` at all contact points."""
     found = batch.reduced({**study.plan.inputs, **state}, study.plan)
     return _whole(study, {n: np.broadcast_to(values[..., 0], study.plan.shape) for n, values in found.items()})
 
 
 def _whole(study: Study, values: Mapping[str, np.ndarray]) -> Results:
-    """The results with the outputs that follow from others; refused where one is not finite."""
+    """Results including derived outputs; raises an error if an output is not finite."""
     results = Results(study, {**values, **derived(study.plan, study.pair, values)})
     _check_finite(results)
     return results
 
 
 def _check_finite(results: Results) -> None:
-    """Refuse inputs at which a law leaves its domain."""
+    """Raise an error for inputs at which a law leaves its domain."""
     for column in results.columns:
         wrong = ~np.isfinite(results[column.output])
         if wrong.any():

@@ -1,4 +1,4 @@
-"""What a study file may say: one class a section, validated once, every error with its place."""
+"""The study file: one class per section, validated once, every error with its place."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ MOST_LEVELS = 100_000
 
 
 def _levels(value: Any) -> Any:
-    """A list unchanged, or ``{from, to, count}`` spelt out."""
+    """A list unchanged, or ``{from, to, count}`` expanded."""
     if not isinstance(value, dict):
         return value
     if set(value) != {"from", "to", "count"}:
@@ -34,7 +34,7 @@ def _levels(value: Any) -> Any:
 
 
 def each_once(values: tuple[Any, ...]) -> tuple[Any, ...]:
-    """The levels, none of which may appear twice."""
+    """Levels; raises an error if a value appears twice."""
     doubled = sorted({v for v in values if values.count(v) > 1}, key=str) if len(values) < 1000 else []
     if doubled or len(set(values)) < len(values):
         raise ValueError(f"each level once, but {doubled[0] if doubled else 'one'} appears again")
@@ -63,7 +63,7 @@ class Conditions(Section):
 
 
 class Pairings(Section):
-    """Which surface meets which: ``every`` unordered pair of some, or ``pinion`` list against ``gear`` list."""
+    """Pairings of surfaces: ``every`` unordered pair of some, or ``pinion`` list against ``gear`` list."""
 
     every: Names | None = key(
         "surfaces of which every pair is taken, each with itself too; or pinion and gear",
@@ -86,7 +86,7 @@ class Pairings(Section):
 
 
 def _laws() -> Any:
-    """An option for each step that has a choice of laws, and that for the law of friction."""
+    """An option for each step with a choice of laws, and for the friction law."""
     fields: dict[str, Any] = {}
     for slot in SLOTS:
         together = [other.choices for other in SLOTS if other.option == slot.option]
@@ -111,7 +111,7 @@ def reads_hardness(law: Callable[..., Any]) -> bool:
 
 
 class Options(_Laws):
-    """Readings of the model on which its authors leave room; the defaults are those of the base model."""
+    """Options of the model left open by its authors; the defaults are the base model's."""
 
     balance: Literal["none", "johnson_greenwood_poon"] = key(
         "whether film and asperities share the load",
@@ -182,7 +182,7 @@ class Options(_Laws):
 
     @property
     def laws(self) -> dict[str, Callable[..., Any]]:
-        """The chosen laws by the quantity that they give."""
+        """Chosen laws by output quantity."""
         return {slot.quantity: slot.choices[getattr(self, slot.option)].law for slot in SLOTS}
 
     @model_validator(mode="after")
@@ -249,7 +249,7 @@ class StudyFile(RigFile):
 
     @model_validator(mode="after")
     def _scuffs_above_the_oil(self) -> StudyFile:
-        """Refuse an oil that scuffs at the temperature at which it enters the gears or the contact."""
+        """Raise an error for a scuffing temperature not above the oil temperature at the inlet or in the contact."""
         hottest = max(self.conditions.oil_temperature_C) + self.options.bulk_temperature_rise_K
         for name in ("scuffing_temperature_C", "integral_scuffing_temperature_C"):
             limit = None if self.safety is None else getattr(self.safety, name)

@@ -1,4 +1,4 @@
-"""How much of the variance of a response each factor decides: main effects, interactions, Sobol' indices."""
+"""Influence of factors on a response: main effects, interactions, Sobol' indices."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ BOOTSTRAP = 200
 """Resamples of a random design: enough for the first digit of an interval."""
 LEVEL = 0.95
 BINS = 8
-"""Ranges of a number in the main effects of a random design."""
+"""Number of ranges of a numeric factor in the main effects of a random design."""
 
 
 @dataclass(frozen=True, eq=False)
 class Indices:
-    """Sobol' indices by factor, and their intervals where they are estimated.
+    """Sobol' indices by factor, and their intervals if they are estimated.
 
-    ``first`` is the share of the variance that a factor decides alone, ``total`` that in which it takes part;
+    ``first``: share of the variance caused by a factor alone. ``total``: share including its interactions.
     ``first_ends`` and ``total_ends`` are of shape (2, factors).
     """
 
@@ -30,11 +30,11 @@ class Indices:
 
 
 def of_grid(response: np.ndarray) -> Indices:
-    r"""Indices of a full factorial, an axis a factor, all levels of equal weight; exact.
+    r"""Indices of a full factorial, an axis per factor, all levels of equal weight; exact.
 
     .. math:: S_i = \frac{V[E(y|x_i)]}{V(y)},\quad S_{Ti} = 1 - \frac{V[E(y|x_{\sim i})]}{V(y)}
 
-    Source: I. M. Sobol', Math. Comput. Simul. 55 (2001) 271; of discrete levels.
+    Source: I. M. Sobol', Math. Comput. Simul. 55 (2001) 271; here for discrete levels.
 
     >>> x, y = np.array([-1.0, 1.0])[:, None], np.array([-1.0, 0.0, 1.0])[None, :]
     >>> found = of_grid(x + x * y)     # variances 1 and 2/3
@@ -49,7 +49,7 @@ def of_grid(response: np.ndarray) -> Indices:
 
 
 def interactions(response: np.ndarray) -> dict[tuple[int, int], float]:
-    """Share of the variance that two factors decide only together, by their axes.
+    """Share of the variance caused by the interaction of two factors, by their axes.
 
     >>> x, y = np.array([-1.0, 1.0])[:, None], np.array([-1.0, 0.0, 1.0])[None, :]
     >>> {axes: round(share, 3) for axes, share in interactions(x + x * y).items()}
@@ -61,14 +61,14 @@ def interactions(response: np.ndarray) -> dict[tuple[int, int], float]:
 
 
 def _share(response: np.ndarray, kept: tuple[int, ...]) -> float:
-    """Variance of the mean over all axes but those kept, over the whole; 0 where nothing varies."""
+    """Variance of the mean over all axes except ``kept``, relative to the total; 0 if the total is zero."""
     others = tuple(axis for axis in range(response.ndim) if axis not in kept)
     whole = float(response.var())
     return float(response.mean(axis=others).var()) / whole if whole > 0.0 else 0.0
 
 
 def base_samples(kind: str, runs: int, factors: int, seed: int) -> np.ndarray:
-    """Points in the unit cube: the two matrices A and B of Saltelli, of shape (2, runs, factors).
+    """Points in the unit cube: matrices A and B of Saltelli, of shape (2, runs, factors).
 
     >>> base_samples("sobol", 4, 3, seed=1).shape
     (2, 4, 3)
@@ -81,7 +81,7 @@ def base_samples(kind: str, runs: int, factors: int, seed: int) -> np.ndarray:
 
 
 def all_samples(base: np.ndarray) -> np.ndarray:
-    """Every point of a random design: A, B, and A with one column of B each, one below the other.
+    """All points of a random design: A, B, and A with each column of B in turn, stacked.
 
     >>> all_samples(base_samples("sobol", 4, 3, seed=1)).shape
     (20, 3)
@@ -98,7 +98,7 @@ def all_samples(base: np.ndarray) -> np.ndarray:
 def of_samples(response: np.ndarray, runs: int, seed: int) -> Indices:
     """Indices from the responses at `all_samples`, with intervals from resampled runs.
 
-    Source: A. Saltelli et al., Comput. Phys. Commun. 181 (2010) 259, as SciPy has it.
+    Source: A. Saltelli et al., Comput. Phys. Commun. 181 (2010) 259, as in SciPy.
     """
     parts = response.reshape(-1, runs)
     first, total = _saltelli(parts)
@@ -118,7 +118,7 @@ def _saltelli(parts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 @dataclass(frozen=True, eq=False)
 class MainEffect:
-    """Mean response at each level of a factor, with the number of runs behind it."""
+    """Mean response and number of runs at each level of a factor."""
 
     levels: tuple[object, ...]
     mean: np.ndarray
@@ -132,7 +132,7 @@ def main_effect_of_grid(response: np.ndarray, axis: int, levels: Sequence[object
 
 
 def main_effect_of_samples(response: np.ndarray, values: Sequence[object]) -> MainEffect:
-    """Mean response by name, or in ranges of a number that hold as many runs each; the level is their middle.
+    """Mean response by name, or by ranges of a number with equal numbers of runs; the level is the middle.
 
     >>> effect = main_effect_of_samples(np.array([1.0, 2.0, 5.0]), ["a", "a", "b"])
     >>> effect.levels, effect.mean.tolist(), effect.count.tolist()

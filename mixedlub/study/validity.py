@@ -1,4 +1,4 @@
-"""Range of a study: what of its conditions is outside, by the judge of every row of numbers."""
+"""Conditions of a study outside the valid ranges."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from mixedlub.study.plan import Plan, Study
 from roughness.mccool import nayak_parameter
 
 OF_SHARING = f"{EXTRAPOLATED}:load_sharing"
-"""Flag on a law of the load sharing; a note on the gears says which law."""
+"""Flag of a law of load sharing; a note on the gears names the law."""
 
 
 class Results(Protocol):
-    """Results of a study as far as its ranges are judged by them."""
+    """Results of a study, as needed to judge their ranges."""
 
     @property
     def study(self) -> Study:
@@ -32,7 +32,7 @@ class Results(Protocol):
 
 
 def reached(plan: Plan, values: Mapping[str, np.ndarray]) -> Reached:
-    """Every limit of a study with the values of its conditions."""
+    """All limits of a study with the values of its conditions."""
     moments = [np.asarray(plan.inputs[name]).reshape(-1, 1, 1, 1) for name in ("m0", "m2", "m4")]
     with np.errstate(divide="ignore", over="ignore"):
         known = {"nayak_bandwidth": nayak_parameter(*moments)}
@@ -42,9 +42,9 @@ def reached(plan: Plan, values: Mapping[str, np.ndarray]) -> Reached:
 
 
 def flags_of(plan: Plan, values: Mapping[str, np.ndarray], notes: Iterable[Finding] = ()) -> dict[str, np.ndarray]:
-    """Grades of the conditions of a study by code, the gravest first; codes that apply nowhere are left out.
+    """Grades of the conditions of a study by code, worst code first, without codes that never apply.
 
-    ``notes`` are those on the load sharing, whose laws are extrapolated for all conditions or for none.
+    ``notes``: findings on load sharing, whose laws are extrapolated for all conditions or for none.
     """
     found = flags(reached(plan, values), plan.shape)
     if any(note.code == EXTRAPOLATED for note in notes):
@@ -53,7 +53,7 @@ def flags_of(plan: Plan, values: Mapping[str, np.ndarray], notes: Iterable[Findi
 
 
 def out_of_range(results: Results) -> tuple[Finding, ...]:
-    """Findings on conditions outside the validity range of the laws, gravest first; empty where all are within."""
+    """Findings on conditions outside the valid range of the laws, worst first."""
     plan, count = results.study.plan, len(results.study.pairings)
     more = {"asperities_overloaded": BALANCE} if plan.friction is None and not plan.balanced else {}
     rows = f"conditions of {count} pairings" if count > 1 else "conditions"
@@ -61,7 +61,7 @@ def out_of_range(results: Results) -> tuple[Finding, ...]:
 
 
 def _place(study: Study, code: str) -> str:
-    """The key that chose an effect or law; empty for other codes."""
+    """Key that chose an effect or law; empty for other codes."""
     kind, _, name = code.partition(":")
     if kind != EXTRAPOLATED:
         return ""

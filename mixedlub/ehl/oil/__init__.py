@@ -1,1 +1,1 @@
-"""The oil of a contact: viscosity, shear, density and heat from one file."""
+"""Oil of a contact: viscosity, shear, density and thermal properties from one file."""

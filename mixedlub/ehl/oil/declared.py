@@ -1,4 +1,4 @@
-"""Laws of the solver's oil: one function each, declared with the keys of the file that give its numbers."""
+"""Laws of the solver's oil: a function each, declared with the keys of the file for its constants."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from mixedlub.schema.section import Number, key
 
 GIGA, MEGA, MILLI, MICRO = 1e9, 1e6, 1e-3, 1e-6
 NEWTON_SCALE = 1e9
-"""Scale of stress of a Newtonian oil (Pa): beyond any contact's, so that its law is straight."""
+"""Stress scale of a Newtonian oil (Pa): larger than in any contact, so that its law is linear."""
 QUANTITIES = ("pressure", "temperature", "stress", "density", "volume")
-"""Arguments of laws: the state, the density at ambient pressure, and the law of the relative volume."""
+"""Arguments of laws: state, density at ambient pressure, and law of the relative volume."""
 Pair = tuple[Number, Number]
 
 
 @dataclass(frozen=True, eq=False)
 class Given:
-    """A number of a law: the argument of the function, the key of the file with its field, and the conversion to SI.
+    """A constant of a law: argument of the function, key of the file with its field, and conversion to SI.
 
-    Keys of one argument are the entries of a tuple.
+    Several keys with the same argument are entries of a tuple.
     """
 
     name: str
@@ -37,7 +37,7 @@ class Given:
 
     @property
     def field(self) -> tuple[Any, Any]:
-        """Type and description of the key; a law that needs the key says so."""
+        """Type and description of the key; mentions the law that requires it."""
         return self.type | None, key(
             self.meaning, None, example=self.example, alternative=self.example is None, **self.limits
         )
@@ -53,17 +53,17 @@ def kelvin(celsius: float) -> float:
 
 
 def times(factor: float) -> Callable[[float], float]:
-    """The conversion by a factor."""
+    """Conversion by a factor."""
     return lambda value: value * factor
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
 class OilLaw(Law):
-    """A law of viscosity, shear or density with the keys of its numbers.
+    """A law of viscosity, shear or density with the keys of its constants.
 
-    ``refuse`` raises an error for keys that contradict each other. A law of density may give the ``volume``. A law of
-    shear has the ``scale`` of stress at which it leaves Newton, a number of the law or a law over pressure, none for a
-    Newtonian oil, and the ``limit`` that no stress reaches. All take the numbers of the law.
+    ``refuse`` raises an error for contradictory keys. ``volume``: relative volume of a law of density. ``scale``:
+    stress at which a law of shear departs from Newton, a constant or a function of pressure, None for a Newtonian oil.
+    ``limit``: upper bound of the stress. All are called with the constants of the law.
     """
 
     keys: tuple[Given, ...] = ()
@@ -74,21 +74,21 @@ class OilLaw(Law):
 
     @property
     def newtonian(self) -> bool:
-        """Whether no stress leaves Newton's law."""
+        """Whether the law is linear at every stress."""
         return not self.scale
 
     def stress_scale(self, numbers: dict[str, Any]) -> Callable[..., Any]:
-        """The law of the scale of stress (Pa) over pressure."""
+        """Law of the stress scale (Pa) over pressure."""
         own = self.scale
         return partial(own, **numbers) if callable(own) else constant(numbers.get(own, NEWTON_SCALE))
 
     @property
     def parameter_names(self) -> tuple[str, ...]:
-        """Arguments that the keys of the file give."""
+        """Arguments given by keys of the file."""
         return tuple(given.name for given in self.keys)
 
     def si(self, section: Any) -> dict[str, Any]:
-        """The numbers of a section of the file in SI."""
+        """Constants of a section of the file in SI."""
         found: dict[str, list[Any]] = {}
         for given in self.keys:
             value = getattr(section, given.key)
@@ -98,7 +98,7 @@ class OilLaw(Law):
 
 
 class OilLaws(Catalogue[OilLaw]):
-    """The laws of one property in the order of their file, then those of plug-ins."""
+    """Laws of a property in the order of their file, then laws of plug-ins."""
 
     def __init__(self, role: str) -> None:
         super().__init__(
@@ -109,12 +109,12 @@ class OilLaws(Catalogue[OilLaw]):
         )
 
     def offers(self, title: str, *keys: Given, **known: Any) -> Callable[[Function], Function]:
-        """Offer the law below under its own name, with a title for the file's reference and the keys of its numbers."""
+        """Offer the law below under its name, with a title for the file reference and the keys of its constants."""
         return self.declares(lambda law: OilLaw(name=law.__name__, law=law, title=title, keys=keys, **known))
 
     @property
     def keys(self) -> list[Given]:
-        """The keys of all laws; a key that only one law has follows its neighbour in this law."""
+        """Keys of all laws; a key used by a single law follows its neighbour in this law."""
         found: list[Given] = []
         for law in self.all.values():
             place = len(found)

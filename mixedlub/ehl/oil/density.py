@@ -1,4 +1,4 @@
-"""Density over that at ambient pressure and the known temperature, with its slopes in pressure and temperature."""
+"""Density relative to ambient pressure and the known temperature, with derivatives by pressure and temperature."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def tait_volume(
     bulk_modulus_slope: float,
     bulk_modulus_fall: float,
 ) -> Slopes:
-    r"""Volume over that at ambient pressure and the known temperature, with slopes per Pa and per K.
+    r"""Volume relative to ambient pressure and the known temperature, with derivatives per Pa and per K.
 
     .. math:: \frac{V}{V_0} = [1 + a(T - T_0)]
               \left\{1 - \frac{1}{1 + K'}\ln\left[1 + \frac{p\,(1 + K')}{K(T)}\right]\right\},\quad

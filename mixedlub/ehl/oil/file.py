@@ -1,4 +1,4 @@
-"""The file of an oil: viscosity, shear, density and heat together, since they are fitted together."""
+"""Oil file of the solver: viscosity, shear, density and thermal properties, which are fitted together."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from profiles.errors import as_path
 
 
 class LawSection(Section):
-    """A section that chooses a law: keys that the law needs are required, and keys of other laws are refused."""
+    """A section with a choice of law: keys required by the law are mandatory, keys of other laws raise an error."""
 
     law: str
     LAWS: ClassVar[OilLaws]
@@ -42,7 +42,7 @@ class LawSection(Section):
 
     @property
     def chosen(self) -> OilLaw:
-        """The law."""
+        """The chosen law."""
         return self.LAWS.all[self.law]
 
     @model_validator(mode="after")
@@ -56,7 +56,7 @@ class LawSection(Section):
 
 
 class DensitySection(LawSection):
-    """Keys of several laws of density; ``COMMON`` are accepted with every law."""
+    """Keys of several laws of density; ``COMMON`` keys are accepted with every law."""
 
     COMMON: ClassVar[tuple[str, ...]] = ("temperature_C",)
     density_kg_m3: Number = key("density at ambient pressure and temperature_C", example=850.0, gt=0.0)
@@ -65,7 +65,7 @@ class DensitySection(LawSection):
 
 
 def _section(base: Any, laws: OilLaws, meaning: str, default: Any = ..., example: str | None = None) -> Any:
-    """A section with the laws of a catalogue and the keys of all of them."""
+    """Section with the laws of a catalogue and the keys of all of them."""
     values = {law.name: law.title for law in laws.all.values()}
     fields: Any = {given.key: given.field for given in laws.keys if given.key not in base.model_fields}
     fields["law"] = (Literal[tuple(values)], key(meaning, default, example=example, values=values))
@@ -110,7 +110,7 @@ class Range(Section):
 
 
 class OilFile(Section):
-    """A file of one oil."""
+    """Oil file of the solver."""
 
     schema_: Literal["mixedlub-ehl-oil/1"] = key("format of the file", example="mixedlub-ehl-oil/1", alias="schema")
     name: str = key("name of the oil", example="gear oil")
@@ -123,7 +123,8 @@ class OilFile(Section):
 
     @model_validator(mode="after")
     def _one_volume(self) -> OilFile:
-        """Refuse a law of viscosity that reads the volume of a density law without one, or at another temperature."""
+        """Raise an error if a viscosity law reads the volume but the density law has none, or has another
+        temperature."""
         name = self.viscosity.law
         if "volume" in self.viscosity.chosen.reads:
             if self.density.chosen.volume is None:
@@ -136,7 +137,7 @@ class OilFile(Section):
 
 
 def read_oil(path: str | PathLike[str]) -> Oil:
-    """The oil of a file, or one of the package by its name; what that lacks is typical of its base stock.
+    """Oil of a file, or an oil of the package by name; missing properties are typical of its base stock.
 
     >>> read_oil("pao_vg100").name
     'PAO100, polyalphaolefin ISO VG 100'
@@ -148,7 +149,7 @@ def read_oil(path: str | PathLike[str]) -> Oil:
 
 
 def oil_of(named: str, folder: Path, where: str) -> Oil:
-    """An oil by name, or by its file relative to a folder: one of the solver's laws, or one of cases and studies."""
+    """Oil by name, or by its file relative to a folder; either an oil of the solver or of cases and studies."""
     if named.endswith(SUFFIX):
         path = named_file(folder, named, where)
         content = read_toml(path)
@@ -158,7 +159,7 @@ def oil_of(named: str, folder: Path, where: str) -> Oil:
 
 
 def _judged(file: OilFile) -> Oil:
-    """The oil of a file; doubts of its viscosity under pressure, within its range, are reported."""
+    """Oil of a file; doubts about its viscosity under pressure, within its range, are reported."""
     found = build(file)
     limits: dict[str, Any] = {}
     if file.range is not None:

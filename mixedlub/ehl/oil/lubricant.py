@@ -1,4 +1,4 @@
-"""The oil of a case or study as the solver uses it: the same laws, with the slopes of its viscosity."""
+"""Oil of a case or study for the solver: the same laws, with derivatives of the viscosity."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from mixedlub.rig.lubricant import Lubricant
 
 
 def from_lubricant(of: Lubricant) -> Oil:
-    """A Ree-Eyring oil; its viscosity is by the modulus equation where it has the constants, else by Roelands."""
+    """A Ree-Eyring oil with viscosity by the modulus equation if its constants are given, else by Roelands."""
     squeezed = partial(density.dowson_higginson, known_temperature=oil.ZERO_CELSIUS + 15.0, expansion=of.density_change)
     return Oil(
         name=of.name,
@@ -32,7 +32,7 @@ def from_lubricant(of: Lubricant) -> Oil:
 
 
 def roelands(pressure: np.ndarray, temperature: np.ndarray, of: Lubricant) -> Slopes:
-    r"""Logarithm of the viscosity (Pa s) by ASTM D341 and Roelands, with slopes per Pa and per K.
+    r"""Logarithm of the viscosity (Pa s) by ASTM D341 and Roelands, with derivatives per Pa and per K.
 
     .. math:: \ln\eta + 9.67 = s\,(1 + p/p_r)^Z,\quad s = \ln\eta_0(T) + 9.67,\quad Z = \alpha(T)\,p_r/s
 
@@ -50,7 +50,7 @@ def roelands(pressure: np.ndarray, temperature: np.ndarray, of: Lubricant) -> Sl
 
 
 def modulus(pressure: np.ndarray, temperature: np.ndarray, of: Lubricant) -> Slopes:
-    r"""Logarithm of the viscosity (Pa s) by ASTM D341 and the modulus equation, with slopes per Pa and per K.
+    r"""Logarithm of the viscosity (Pa s) by ASTM D341 and the modulus equation, with derivatives per Pa and per K.
 
     .. math:: \ln\eta = \ln\eta_0(T) + p/(A + B p)
 
@@ -68,6 +68,6 @@ def modulus(pressure: np.ndarray, temperature: np.ndarray, of: Lubricant) -> Slo
 
 
 def _change(values: tuple[float, float] | None, of: Lubricant) -> float:
-    """Change per kelvin of a property that is linear in temperature; none of one that the oil lacks."""
+    """Temperature coefficient (per K) of a property linear in temperature; zero for a missing property."""
     first, second = values or (0.0, 0.0)
     return (second - first) / (of.temperature[1] - of.temperature[0])

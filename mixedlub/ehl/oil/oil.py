@@ -1,4 +1,4 @@
-"""An oil as the solver uses it: its laws with their slopes, as functions of pressure (Pa) and temperature (K)."""
+"""Oil of the solver: laws with derivatives, as functions of pressure (Pa) and temperature (K)."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from dataclasses import dataclass
 import numpy as np
 
 Slopes = tuple[np.ndarray, np.ndarray, np.ndarray]
-"""A quantity and its derivatives with respect to the two arguments of its law."""
+"""A quantity and its derivatives by the two arguments of its law."""
 
 
 def constant(value: float) -> Callable[[np.ndarray], np.ndarray]:
-    """A quantity that does not change with pressure."""
+    """A quantity independent of pressure."""
     return lambda pressure: np.full_like(pressure, value)
 
 
 def expansion_of(density_ratio: Callable[[np.ndarray, np.ndarray], Slopes]) -> Callable[..., np.ndarray]:
-    """Thermal expansion (1/K) by pressure and temperature of a law of density."""
+    """Thermal expansion (1/K) of a law of density, as a function of pressure and temperature."""
 
     def law(pressure: np.ndarray, temperature: np.ndarray) -> np.ndarray:
         density, _, by_temperature = density_ratio(pressure, temperature)
@@ -28,11 +28,11 @@ def expansion_of(density_ratio: Callable[[np.ndarray, np.ndarray], Slopes]) -> C
 
 @dataclass(frozen=True)
 class Oil:
-    """Laws and constants of one oil.
+    """Laws and constants of an oil.
 
-    ``log_viscosity``, ``density_ratio`` and ``expansion`` (1/K) take pressure and temperature; ``shear`` takes stress
-    and pressure and gives viscosity times shear rate; ``stress_scale`` and ``stress_limit`` by pressure are where it
-    leaves Newton's law, and what it never reaches (Pa). Densities are relative to ``density``.
+    ``log_viscosity``, ``density_ratio``, ``expansion`` (1/K): functions of pressure and temperature. ``shear``:
+    viscosity times shear rate as a function of stress and pressure. ``stress_scale``, ``stress_limit`` (Pa): onset of
+    non-Newtonian flow and upper bound of the stress, by pressure. Densities are relative to ``density``.
     """
 
     name: str
@@ -56,7 +56,7 @@ class Oil:
 
     @property
     def eyring_stress(self) -> float:
-        """Eyring stress (Pa) of a Ree-Eyring oil whose stress is the same at every pressure; zero of another oil."""
+        """Eyring stress (Pa) of a Ree-Eyring oil with a stress independent of pressure; zero for other oils."""
         pressure = np.array([0.0, 1e9])
         own = self.stress_scale(pressure)
         rates = [self.shear(ratio * own, pressure)[0] / (np.sinh(ratio) * own) for ratio in (1.0, 3.0)]

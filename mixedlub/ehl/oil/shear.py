@@ -1,6 +1,6 @@
-"""Shear: viscosity times shear rate that a stress drives, with its slopes in stress and pressure.
+"""Laws of shear: viscosity times shear rate at a stress, with derivatives by stress and pressure.
 
-Every law is odd in the stress, and Newtonian where the stress is small.
+Every law is odd in the stress, and Newtonian at small stress.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from mixedlub.ehl.oil.declared import GIGA, MEGA, SHEAR, Given, times
 from mixedlub.ehl.oil.oil import Slopes
 
 LARGEST_RATIO = 200.0
-"""Stress over Eyring stress above which the law goes on as a straight line: rates beyond any contact."""
+"""Stress over Eyring stress above which the law continues linearly: rates beyond any contact."""
 CAP, CAP_END, PASSED = 0.01, 26.0, 1.2
-"""Width of the smooth cap over the limiting stress; its widths after which it is straight; the stress, over the limit,
-that no search passes."""
+"""Smooth cap over the limiting stress: its width, the width after which it is linear, and the largest ratio of stress
+to limit in iterations."""
 
 
 @SHEAR.offers("rate in proportion to stress; friction far too high above 0.5 GPa")
@@ -86,7 +86,7 @@ def growing_eyring(
     growth_start: float,
     growth_end: float,
 ) -> Slopes:
-    r"""One-term Ree-Eyring oil whose stress grows with pressure between two levels.
+    r"""One-term Ree-Eyring oil with a stress that grows with pressure between two levels.
 
     .. math:: \tau_0(p) = \tau_a + \frac{\tau_e}{2}\left\{1 + \tanh\left[\Theta\left(\frac{2p}{p_s + p_e} - 1\right)
               \right]\right\},\quad \tau_e = \tau_a + \kappa(p_e - p_s),\quad \Theta = \frac{\kappa(p_e - p_s)}{\tau_e}
@@ -105,7 +105,7 @@ def growing_eyring(
 def eyring_stress_at(
     pressure: np.ndarray, eyring_stress: float, eyring_growth: float, growth_start: float, growth_end: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Eyring stress of `growing_eyring` (Pa) and its slope in pressure. Source: as there."""
+    """Eyring stress of `growing_eyring` (Pa) and its derivative by pressure. Source: see `growing_eyring`."""
     added = eyring_growth * (growth_end - growth_start)
     span = eyring_stress + added
     scale, middle = added / span, 0.5 * (growth_start + growth_end)
@@ -114,7 +114,7 @@ def eyring_stress_at(
 
 
 def _sinh(stress: np.ndarray, own: np.ndarray) -> Slopes:
-    """Own stress times sinh of the ratio, with slopes in the stress and in the own stress."""
+    """Eyring stress times sinh of the stress ratio, with derivatives by stress and Eyring stress."""
     ratio = stress / own
     inside = np.clip(ratio, -LARGEST_RATIO, LARGEST_RATIO)
     sinh, cosh = np.sinh(inside), np.cosh(inside)

@@ -1,4 +1,4 @@
-"""Viscosity against pressure and temperature: logarithm, and its slopes in both."""
+"""Laws of viscosity over pressure and temperature: logarithm, and its derivatives."""
 
 from __future__ import annotations
 
@@ -110,7 +110,7 @@ def barus(
 
 
 BLEND = (0.7, 1.4)
-"""Pressures over that of the transition between which the slope of Allen's law changes."""
+"""Pressures relative to the transition between which the slope of Allen's law changes."""
 
 
 @VISCOSITY.offers(
