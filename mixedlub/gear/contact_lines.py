@@ -17,7 +17,7 @@ def contact_limits(pair: GearPair) -> np.ndarray:
 
 
 def rise(pair: GearPair) -> float:
-    """Lead of the back of a contact line over its front along the path, m; 0 for spur gears."""
+    """Distance of the back of a contact line ahead of its front on the path, m; 0 for spur gears."""
     return pair.face_width * math.tan(abs(pair.base_helix_angle))
 
 

@@ -182,7 +182,8 @@ class TableSharing:
         return np.where(self._told(curve, roll_angle), np.interp(roll_angle, angle, share), 0.0)
 
     def breakpoints(self, pair: GearPair) -> np.ndarray:
-        """Rows with a significant change of slope, at any torque; for helical pairs, apart for each slice."""
+        """Rows with a significant change of slope at any torque; for helical pairs, contact limits (slices pass rows
+        apart)."""
         if pair.helix_angle != 0:
             return contact_limits(pair)
         kinks = []
