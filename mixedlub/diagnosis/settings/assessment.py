@@ -46,7 +46,7 @@ MOST_PENALTY = 20.0
 LEAST_MISMATCH = 0.3
 """Judgement. Least mismatch (squared standard deviations) in the judgement of shares: less is noise."""
 CHANCE_GAIN = 5.0
-"""Judgement. Gain in log probability of effects over the discrepancy on left-out levels by chance: odds of 150."""
+"""Judgement. Chance gain of effects over the discrepancy in log probability on left-out levels: odds of 150."""
 VALIDATED = 6
 """Cost limit. Cross-validated explanations; each costs as many fits as there are levels."""
 
@@ -70,7 +70,7 @@ LAW_OPEN = -2.3
 """Source: H. Jeffreys, Theory of Probability, 3rd ed. (1961), appendix B. Log odds above which a law cannot be
 excluded: a Bayes factor of ten against it, from which evidence is strong."""
 EXACT_EXPONENT = 0.01
-"""Judgement. Difference of an exponent from a law's exponent at the end of its prior that is zero: as printed."""
+"""Judgement. Difference of an exponent from a law's at the end of its prior that counts as zero: as printed."""
 
 # Power laws
 EXPONENTS = tuple(s * Fraction(n, m) for n, m in ((1, 3), (1, 2), (2, 3), (1, 1), (2, 1)) for s in (1, -1))

@@ -21,7 +21,7 @@ SUITS = (
 
 @dataclass(frozen=True)
 class Nearest:
-    """Nearest effects (empty if weak), explained share, and chi-square of ``count`` readings before and after."""
+    """Nearest effects (empty if weak), explained share, chi-square of ``count`` single readings before and after."""
 
     explanation: Explanation
     share: float
