@@ -1,10 +1,10 @@
-"""Mixed lubrication of rough surfaces: roughness, film, contact, friction, gear loss, and what a simulation lacks.
+"""Mixed lubrication of rough surfaces: roughness, film, contact, friction, gear loss, and diagnosis of recordings.
 
     import mixedlub as ml
 
-Names of `PUBLIC` and the rooms of `ROOMS` are loaded when they are first used. Arguments and results carry their unit
-in their name, as the files do (``torque_Nm``); the laws in ``ml.laws`` are plain functions of arrays in SI. A public
-name is retired over one minor release: it moves to `RETIRED`, where it still works and warns of the name to use.
+Names of `PUBLIC` and the rooms of `ROOMS` are loaded on first use. Arguments and results carry their unit in their
+name, like the files (``torque_Nm``); the laws in ``ml.laws`` are plain functions of arrays in SI. A public name is
+retired over one minor release: it moves to `RETIRED`, still works, and warns of the new name.
 """
 
 from __future__ import annotations
@@ -27,19 +27,19 @@ PUBLIC = {
     "Answer": "mixedlub.api.diagnosis",
     "CautionWarning": "mixedlub.schema.findings",
 }
-"""Functions and types that notebooks and other packages may rely on, with the module that defines each."""
+"""Public functions and types, with the modules that define them."""
 ROOMS = ("case", "effects", "ehl", "friction", "gear", "laws", "study")
-"""Rooms whose own ``__all__`` is public as well."""
+"""Rooms with a public ``__all__``."""
 BESIDE = ("profiles", "roughness")
-"""Packages of this distribution that are offered under this name too."""
+"""Packages of this distribution also offered under this name."""
 RETIRED: dict[str, str] = {}
-"""Names on their way out, each with the public name that takes its place."""
+"""Retired names, each with its public replacement."""
 
 __all__ = [*PUBLIC, *ROOMS, *BESIDE]
 
 
 def _refuse_hidden_packages() -> None:
-    """Raise an error that names a file or folder which hides a package of this distribution."""
+    """Raise an error if a file or folder hides a package of this distribution."""
     from importlib.util import find_spec
     from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The command `mixedlub`: its subcommands, its exit status, and what a user reads when something is wrong."""
+"""The command `mixedlub`: subcommands, exit status and error messages."""
 
 from __future__ import annotations
 
@@ -85,11 +85,11 @@ PARTIAL = {
     **dict.fromkeys((ehl.NAME, law_errors.NAME, condense.NAME), f"{PARTS}*/*.npz"),
     prove.NAME: "**/*",
 }
-"""Commands that keep what they did when they are stopped, with the pattern of those files."""
+"""Commands that save their work when stopped, with the pattern of the saved files."""
 UNUSABLE = (errno.ENAMETOOLONG, errno.EACCES, errno.EPERM, errno.EROFS, errno.ELOOP, errno.ENOTDIR, errno.EISDIR)
-"""Errors of a path as the user's system has it: too long, not readable, no folder."""
+"""Errors of a path on the user's system: too long, not readable, not a folder."""
 CTRL_C = 130
-"""Status of a command that Ctrl-C stopped, as shells have it; that of typer too."""
+"""Exit status of a command stopped by Ctrl-C, the convention of shells and typer."""
 
 app = typer.Typer(
     no_args_is_help=False,
@@ -136,13 +136,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _show(message: Warning | str, *rest: object, **named: object) -> None:
-    """What nobody collected, as a line for the user."""
+    """Print an uncollected warning as a line for the user."""
     print_findings([message.finding]) if isinstance(message, FindingWarning) else note(str(message))
 
 
 @cache
 def _program() -> Any:
-    """The commands with their options read, which takes longer than many commands do."""
+    """The commands with their options; parsing them takes longer than many commands."""
     return typer.main.get_command(app)
 
 
@@ -168,7 +168,7 @@ def _run(words: list[str]) -> int:
 
 
 def _what_went_wrong(error: BaseException, kept: str) -> tuple[str, int]:
-    """What to say of an error, and the exit status; ``kept`` is what is left of the work."""
+    """Message and exit status for an error; ``kept``: text on the saved work."""
     if isinstance(error, InputError):
         return str(error), 2
     if isinstance(error, (KeyboardInterrupt, typer.Abort)):
@@ -187,7 +187,7 @@ def _what_went_wrong(error: BaseException, kept: str) -> tuple[str, int]:
 
 
 def with_home(word: str) -> str:
-    """A word with the home folder in place of the ``~`` that begins it, also behind the name of an option.
+    """A word with the home folder in place of a leading ``~``, also after the name of an option.
 
     >>> with_home("--out=~/gears") == "--out=" + os.path.expanduser("~/gears"), with_home("a~b")
     (True, 'a~b')

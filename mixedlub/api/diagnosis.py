@@ -34,24 +34,8 @@ if TYPE_CHECKING:
 class Answer:
     """Diagnosis of a case: the physics missing in its simulation, with summary, tables, figures and files.
 
-    Returned by `ml.diagnose`; displayed as a short summary, printed as the report of `mixedlub diagnose`.
-
-    Attributes
-    ----------
-    diagnosis : Diagnosis
-        Source of all results; not a public interface.
-    record : dict
-        Content of `diagnosis.json`.
-    verdict : list of str
-        Effect ids of the most probable explanation, or ``["none"]``, or ``["unknown"]``.
-    probabilities : pandas.Series
-        Posterior probability of each effect, of none and of unknown, in descending order.
-    parameters, predictions : pandas.DataFrame
-        Parameters, and the table of `predictions.csv`, with 90 % intervals.
-    findings : list of str
-        Notes, cautions and doubts about the input and the answer.
-    improved : Case
-        The case with the verdict's effects, for `ml.simulate`.
+    Returned by `ml.diagnose`; displayed as a short summary, printed as the report of `mixedlub diagnose`. ``diagnosis``
+    is the source of all results; only the other members are public.
 
     Examples
     --------

@@ -24,7 +24,7 @@ def gear_pair(**keys: Any) -> Gears:
 
     Parameters
     ----------
-    **keys
+    keys : keyword arguments
         Keys of the section ``[gears]``, listed by `mixedlub kinds gear_pair`; pairs of values: pinion first. Required:
         ``teeth`` (-), ``normal_module_mm`` (mm) and ``face_width_mm`` (mm), unless a ``preset`` sets them. By default,
         tip diameters and centre distance follow from the profile shift, and teeth are rigid.
@@ -61,7 +61,7 @@ def oil(named: str | None = None, /, **keys: Any) -> Lubricant:
     ----------
     named : str, optional
         Name of a shipped oil, oil file (NAME.toml), or base stock.
-    **keys
+    keys : keyword arguments
         Keys of the section ``[lubricant]``, e.g. ``kinematic_viscosity_mm2_s`` (mm²/s) at ``temperature_C`` (°C); they
         override the named oil. Other properties are typical of the ``base`` stock.
 
@@ -104,7 +104,7 @@ def surface(profile: str | PathLike[str] | Profile | None = None, **keys: Any) -
     profile : str, PathLike or profiles.Profile, optional
         File of a trace, trace of the package (``shipped:NAME``), or heights with their spacing, of which the moments
         are computed at once.
-    **keys
+    keys : keyword arguments
         Keys of a section ``[surfaces.NAME]``, e.g. ``cutoff_mm`` (mm) for a trace, or the moments ``m0_um2`` (µm²),
         ``m2`` (-) and ``m4_per_um2`` (1/µm²).
 

@@ -1,4 +1,4 @@
-"""A chain in which film and asperities share the load: the film gives way until both together carry it."""
+"""Chain with a film and asperities that share the load: the film thins until both together carry it."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from mixedlub.laws.contact import mean_hertz_pressure
 from profiles.errors import InputError
 
 _CLOSE, _MOST_STEPS = 1e-12, 80
-"""Cost limits. Difference of the logarithms at which the iteration ends, and most of its steps."""
+"""Cost limits. Converged difference of the logarithms, and largest number of steps."""
 _LEAST = 1e-290
-"""Least share of the asperities, near the smallest number whose logarithm is finite."""
+"""Smallest share of the asperities, near the smallest number with a finite logarithm."""
 _FARTHEST = 700.0
 """Largest logit of the asperities' share: the film carries 1e-304 of the load."""
 
@@ -30,10 +30,10 @@ def balanced_film(
 
     .. math:: \frac{p_a(h)}{p_m} + \left(\frac{h}{h_0}\right)^{-1/k} = 1
 
-    with the pressure p_a that asperities carry (``carried``, falling with the film), the mean Hertz pressure p_m and
-    the film h_0 that carries the whole load. Newton's iteration in the logit z of the asperities' share,
-    :math:`h = h_0(1 + e^z)^k`, on the difference of the logarithms of both sides, with the slope of p_a from its last
-    two values; a step that leaves the bracket of the root is replaced by bisection.
+    with the asperity pressure p_a (``carried``, decreasing with the film), the mean Hertz pressure p_m and the film h_0
+    that carries the whole load. Newton's iteration in the logit z of the asperities' share, :math:`h = h_0(1 + e^z)^k`,
+    on the difference of the logarithms of both sides, with the slope of p_a from its last two values; a step outside
+    the bracket of the root is replaced by bisection.
 
     >>> film = balanced_film(np.array(1e-7), np.array(0.5e9), 0.13, lambda h: 1e9 * np.exp(-h / 2e-7))
     >>> round(float(1e9 * np.exp(-film / 2e-7) / 0.5e9 + (film / 1e-7) ** (-1 / 0.13)), 12)
@@ -46,10 +46,10 @@ def balanced_film(
 
 
 def _root(film: np.ndarray, pressure: np.ndarray, k: float, carried: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
-    """Logarithm of whole over film load, ln(1 + e^z)."""
+    """Logarithm of total over film load, ln(1 + e^z)."""
 
     def log_share(thicker: np.ndarray) -> np.ndarray:
-        """Of the asperities, where the film is that many times as thick as under the whole load."""
+        """Logarithm of the asperities' share, for a film thicker by this factor than under the whole load."""
         return np.log(np.maximum(carried(film * thicker) / pressure, _LEAST))
 
     thicker, before = np.array(1.0 + 1e-4), log_share(np.ones(()))
@@ -86,7 +86,7 @@ def _root(film: np.ndarray, pressure: np.ndarray, k: float, carried: Callable[[n
 
 
 def balanced(chain: Chain) -> Chain:
-    """The chain with a film that shares the load with the asperities, by the laws which the chain has for both.
+    """The chain with a film that shares the load with the asperities, by the chain's laws for both.
 
     >>> from mixedlub.base_model.chains import LINE
     >>> names = [name for name, _ in balanced(LINE)]
@@ -117,7 +117,7 @@ def _constant(exponent: float) -> Law:
 
 
 def _film_law(separation: Law, asperity_pressure: Law) -> Law:
-    """The balanced film as a law of the chain: it reads what both laws read, but for the film."""
+    """The balanced film as a law of the chain: arguments of both laws except the film."""
     gap, load = (tuple(inspect.signature(law).parameters) for law in (separation, asperity_pressure))
     made = ("film_thickness", "separation")
     others = [name for name in dict.fromkeys((*gap, *load)) if name not in made]
@@ -154,11 +154,11 @@ JOHNSON_GREENWOOD_POON = r"""Film thickness at which film and asperities togethe
 
 
 def sharing_exponent(film_law: Law) -> float:
-    r"""Power k of whole over film load by which a film that carries less is thicker, :math:`h = h_0\gamma^k` (-).
+    r"""Exponent k of the film over the ratio of total to film load, :math:`h = h_0\gamma^k` (-).
 
-    The law at the load :math:`w/\gamma` and the modulus :math:`E'/\gamma` over that at w and E'; for a law in powers of
-    U and G it is the exponent of U less that of G. Other laws are refused.
-    Source: K. L. Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91.
+    From the law at the load :math:`w/\gamma` and the modulus :math:`E'/\gamma` relative to w and E'; for a power law in
+    U and G, k is the exponent of U minus the exponent of G. Raises an error for other laws. Source: K. L. Johnson, J.
+    A. Greenwood, S. Y. Poon, Wear 19 (1972) 91.
 
     >>> from mixedlub.laws.film import dowson_higginson, dowson_toyoda
     >>> round(sharing_exponent(dowson_toyoda), 12), round(sharing_exponent(dowson_higginson), 12)
@@ -185,5 +185,5 @@ _STEEL = {
     "pressure_viscosity": 1.5e-8,
     "reduced_modulus": 2.26e11,
 }
-"""A contact of steel (SI); a law in powers has the same exponent at any."""
+"""A contact of steel (SI); a power law has the same exponent at any contact."""
 _SHARED = ("line_load", "reduced_modulus")

@@ -1,4 +1,4 @@
-"""The base chains: which laws, in which order. Written down, not solved for."""
+"""Base chains: the laws and their order, written explicitly."""
 
 from __future__ import annotations
 

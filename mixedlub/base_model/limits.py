@@ -1,4 +1,4 @@
-"""Ranges of contacts under any laws (pressure, film, asperities, oil), and the ranges that laws declare."""
+"""Ranges of contacts under any laws (pressure, film, asperities, oil), and ranges declared by laws."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from mixedlub.chain.model import Step
 from mixedlub.chain.ranges import Ends, Limit, declared, of_law
 
 LEAST_HARD_MODULUS = 50e9
-"""Judgement. Reduced modulus (Pa) of metals, ceramics and glass at least."""
+"""Judgement. Smallest reduced modulus (Pa) of metals, ceramics and glass."""
 RATED_RATIO, YIELD_RATIO = 0.018, 0.025
 """Source: ISO 76. Hertz pressure over reduced modulus to which hard steel is rated (4.0 to 4.2 GPa), and at which hard
 bodies yield under the whole contact; polymers bear a larger share."""
 FAR_FROM_OIL = 30.0
-"""Judgement. Kelvin outside the two viscosity points up to which the viscosity-temperature law is accurate enough."""
+"""Judgement. Temperature distance (K) from both viscosity points up to which the viscosity law is accurate enough."""
 EXACT = 1e-8
-"""Largest part of the load by which film and asperities together may miss it."""
+"""Largest relative error of the load carried by film and asperities together."""
 BROAD = 1.5
-"""Definition. Least Nayak bandwidth of isotropic Gaussian surfaces; no profile has less than 1."""
+"""Definition. Smallest Nayak bandwidth of isotropic Gaussian surfaces; profiles have at least 1."""
 
 FILMS = ("film_thickness", "law_film", "regression_film")
 """Steps of film laws, which an effect may replace."""
@@ -33,7 +33,7 @@ BALANCE = (
 
 
 def contact_limits(inputs: Mapping[str, Any]) -> tuple[Limit, ...]:
-    """Limits of contacts of these inputs, whatever laws are chosen."""
+    """Limits of contacts with these inputs, for any laws."""
     found = []
     modulus = float(np.max(inputs.get("reduced_modulus", 0.0)))
     if modulus >= LEAST_HARD_MODULUS:
@@ -102,7 +102,8 @@ _OF_CONTACTS = (
 def law_limits(
     steps: Iterable[Step], effects: Iterable[Effect], values: Mapping[str, Mapping[str, float]]
 ) -> tuple[Limit, ...]:
-    """Limits that the laws of a model's steps and its effects declare; an effect that replaces the film has its own."""
+    """Limits declared by the laws of a model's steps and by its effects; an effect replacing the film law has separate
+    limits."""
     active = tuple(effects)
     replaced = FILMS if any(e.replaces == "film thickness" for e in active) else ()
     laws: dict[str, Mapping[str, Ends]] = {

@@ -1,1 +1,1 @@
-"""The command line: one command a file, each a thin layer over functions anyone can call."""
+"""The command line: a file per command, each a thin layer over public functions."""

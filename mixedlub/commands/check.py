@@ -1,4 +1,4 @@
-"""`mixedlub check`: what the tool understood of a case folder, in plain words."""
+"""`mixedlub check`: interpretation of a case folder as text."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ EXAMPLE = "mixedlub new case --out my_case\nmixedlub check my_case"
 
 
 def command(case: Annotated[Path, typer.Argument(metavar="CASE", help="Case folder with system.toml.")]) -> None:
-    """Say what a case folder was understood to hold.
+    """Describe how a case folder was understood.
 
-    What is present, what is missing, and which defaults apply.
+    Data present, data missing, and defaults used.
     """
     from mixedlub.case.folder import read_case
 
@@ -40,7 +40,7 @@ def command(case: Annotated[Path, typer.Argument(metavar="CASE", help="Case fold
 
 
 def understood(case: Case) -> Iterator[str]:
-    """The case in plain words, line by line."""
+    """Lines describing a case."""
     from mixedlub.case.defaults import assumed
     from mixedlub.case.folder import unpredicted_runs
 
@@ -113,7 +113,7 @@ def _bodies(case: Case) -> Iterator[str]:
 
 
 def _known(case: Case, forward: Forward | None) -> Iterator[str]:
-    """Effects and calibration that the case names."""
+    """Effects and calibration named by the case."""
     for effect, values in ({} if forward is None else forward.known.values).items():
         yield f"Part of the base model here: {effect.replace('_', ' ')} ({_named(values)})."
     if case.system.calibration:
@@ -214,7 +214,7 @@ def _checked(case: Case, forward: Forward | None) -> tuple[list[Finding], list[s
 
 
 def _forward(case: Case) -> Forward | None:
-    """The forward model of the recordings, or else of the conditions."""
+    """Forward model of the recordings, or else of the conditions."""
     from mixedlub.case.forward import Forward
 
     table = case.recordings if case.recordings is not None else case.conditions

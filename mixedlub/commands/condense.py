@@ -1,4 +1,4 @@
-"""`mixedlub condense`: friction of full solutions for one oil as a friction law that studies use."""
+"""`mixedlub condense`: friction of full solutions for an oil as a friction law for studies."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ def command(
     seed: Annotated[int, typer.Option(metavar="NUMBER", min=0, help="Choice of the contacts.")] = 1,
     scheduler: Scheduler = None,
 ) -> None:
-    """Friction of full solutions for one oil, condensed into a friction law.
+    """Condense friction of full solutions for one oil into a friction law.
 
-    Thermal solutions of contacts of gears, a regression of their friction with its error on solutions that it was not
-    fitted to, residual plots, and the published law beside it. The file of the law is for `[options]` of a study. An
+    Thermal solutions of gear contacts, a regression of their friction with its error on solutions left out of the fit,
+    residual plots, and the published law for comparison. The file of the law is for `[options]` of a study. An
     interrupted run resumes when it is started again.
     """
     from mixedlub.ehl.solve import Way

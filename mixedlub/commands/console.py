@@ -28,7 +28,7 @@ CONDITIONS = (
 
 
 def named_folder(text: str) -> Path:
-    """The folder that an option names, ``~`` expanded; an empty text would mean the current one."""
+    """Folder named by an option, ``~`` expanded; an empty text would mean the current folder."""
     if not text.strip():
         raise typer.BadParameter("must name a folder; '.' is the current one")
     try:
@@ -43,9 +43,9 @@ _published: list[Path] = []
 
 
 def output_folder(out: Path | None, command: str, name: str, *, knows_own: bool = False) -> Path:
-    """The output folder, created if necessary; ``out/COMMAND/NAME`` where none is given.
+    """Output folder, created if necessary; default ``out/COMMAND/NAME``.
 
-    A command that ``knows_own`` results checks for itself which files it would replace.
+    ``knows_own``: the command itself checks which files it would replace.
     """
     folder = Path("out") / command / name if out is None else out
     if out is None and not knows_own and folder.is_dir() and any(p.name[0] != "." for p in folder.iterdir()):
@@ -69,7 +69,7 @@ def reset_output() -> None:
 
 
 def tables_written() -> None:
-    """Take note that the tables of the result are in the output folder."""
+    """Record that the tables of the result are in the output folder."""
     _published[:] = _opened
 
 
@@ -83,9 +83,9 @@ def drop_empty_folders() -> None:
 
 
 def resume_hint(partial: str) -> str:
-    """What an interrupted command has saved and how to resume it; empty where it writes nothing.
+    """Hint on the saved work of an interrupted command and its resumption; empty if the command writes nothing.
 
-    ``partial`` is the pattern of the files from which the same command resumes; empty where it starts again.
+    ``partial``: pattern of the files from which the same command resumes; empty if it starts again.
     """
     if not _opened:
         return ""
@@ -98,7 +98,7 @@ def resume_hint(partial: str) -> str:
 
 
 def case_folder(case: Path) -> Path:
-    """The case folder a user named."""
+    """Case folder named by the user."""
     if case.is_file():
         raise InputError("is a file; name the case folder that holds it", where=str(case))
     if not case.is_dir():
@@ -116,7 +116,7 @@ EVERY_S = 20.0
 
 
 def now_and_then() -> Callable[[str], None]:
-    """The function that prints a line on progress to stderr, unless it printed another one a moment ago."""
+    """Function that prints a line on progress to stderr, at most every `EVERY_S`."""
     last = time.monotonic()
 
     def tell(text: str) -> None:
@@ -130,7 +130,7 @@ def now_and_then() -> Callable[[str], None]:
 
 @contextmanager
 def busy(first: str) -> Iterator[Callable[[str], None]]:
-    """A progress line on stderr, or a line now and then without a terminal; yields the function that changes it."""
+    """A progress line on stderr, or occasional lines without a terminal; yields the function that changes it."""
     from rich.console import Console
 
     console = Console(stderr=True)
@@ -143,7 +143,7 @@ def busy(first: str) -> Iterator[Callable[[str], None]]:
 
 @contextmanager
 def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
-    """A progress bar on stderr for work of many blocks, or a line now and then without a terminal."""
+    """A progress bar on stderr for work of many blocks, or occasional lines without a terminal."""
     from rich.console import Console
 
     console = Console(stderr=True)
@@ -167,7 +167,7 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
 
 
 def resumed(progress: Callable[[int, int], None], parts: str = "blocks") -> Callable[[int, int], None]:
-    """The same progress callback, which first reports the parts that are kept from an earlier run."""
+    """The progress callback, first reporting parts from an earlier run."""
     calls = 0
 
     def counted(done: int, of: int) -> None:
@@ -200,12 +200,12 @@ def echo(text: str = "", *, error: bool = False) -> None:
 
 
 def ask(text: str) -> str:
-    """The reply to a question at the terminal."""
+    """Reply to a question at the terminal."""
     return input(printable(text))
 
 
 def print_findings(found: Iterable[Finding]) -> None:
-    """Print findings to stderr, those of one kind grouped."""
+    """Print findings to stderr, grouped by kind."""
     for one in grouped(found):
         _print(f"{one.severity}: {one}", sys.stderr)
 
@@ -216,12 +216,12 @@ def note(text: str) -> None:
 
 
 def fail(text: str) -> None:
-    """Print, in one line, why a command failed."""
+    """Print a one-line error message."""
     _print("mixedlub: " + " ".join(text.split()), sys.stderr)
 
 
 def _print(text: str, stream: TextIO) -> None:
-    """Text made printable; on a terminal, long lines are wrapped between words and indented."""
+    """Print text; on a terminal, long lines are wrapped between words and indented."""
     shown = printable(text)
     if stream.isatty():
         width = shutil.get_terminal_size().columns
@@ -239,7 +239,8 @@ LOG = "mixedlub-error.log"
 
 
 def save_traceback(error: BaseException) -> str:
-    """File in which the traceback of an unexpected error was saved, or its origin if there is no output folder."""
+    """Save the traceback of an unexpected error; returns its file, or the origin of the error without an output
+    folder."""
     for folder in _opened:
         try:
             (folder / LOG).write_text("".join(traceback.format_exception(error)), encoding="utf-8")

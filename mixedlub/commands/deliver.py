@@ -1,4 +1,4 @@
-"""Delivery of a result: its options, its folder, its tables before its figures, and what is said of it."""
+"""Delivery of a result: options, folder, tables before figures, and messages."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ CASE = "case"
 """Folder of a result that `mixedlub diagnose` reads."""
 WORKBOOK = "results.xlsx"
 Page = Callable[[Path, Callable[[str], None]], Iterable[Finding]]
-"""The function that draws a page and its figures into a folder, calling with what it does next."""
+"""Function that draws a page and its figures into a folder; the callback receives its next step."""
 
 
 @dataclass(frozen=True)
 class How:
-    """The options of every command that writes a result."""
+    """Options of every command that writes a result."""
 
     command: str
     out: Path | None
@@ -54,7 +54,7 @@ class How:
     csv_style: str
 
     def open(self, name: str, origin: Origin, tables: Iterable[str], what: str = "file", *files: str) -> Delivery:
-        """The folder of the result of an input, refused where it holds tables or files of other origin."""
+        """Open the result folder of an input; raise an error if it contains tables or files of another origin."""
         to = Delivery(output_folder(self.out, self.command, name, knows_own=True), origin, what, self)
         earlier = to.check([*to.names(tables), *files])
         if earlier:
@@ -91,7 +91,7 @@ OPTIONS: dict[str, tuple[Any, Any]] = {
 
 
 def delivers(command: str, *without: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Decorator of a command whose last argument ``how`` stands for the options of a result, some left out."""
+    """Decorator of a command with a last argument ``how`` for the options of a result, some left out."""
     folder = typer.Option(
         metavar="DIR", parser=named_folder, help=f"Folder for the results; default out/{command}/NAME."
     )
@@ -124,7 +124,7 @@ def delivers(command: str, *without: str) -> Callable[[Callable[..., None]], Cal
 
 
 def chosen_formats(text: str) -> tuple[str, ...]:
-    """The formats named in a comma-separated list."""
+    """Formats named in a comma-separated list."""
     names = tuple(dict.fromkeys(name.strip().lower() for name in text.split(",")))
     for name in names:
         if name not in FORMATS:
@@ -134,7 +134,7 @@ def chosen_formats(text: str) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Delivery:
-    """The folder that takes a result, and the input that it is of."""
+    """Folder of a result, and its input."""
 
     folder: Path
     origin: Origin
@@ -144,7 +144,7 @@ class Delivery:
 
     @contextmanager
     def publishing(self) -> Iterator[Path]:
-        """A folder to write into, whose files then take the place of those of an earlier run, with their origin."""
+        """A folder for writing; its files then replace the files of an earlier run, and their origin is recorded."""
         with writing(self.folder) as aside:
             yield aside
             self.written.update(path.relative_to(aside).as_posix() for path in aside.rglob("*"))
@@ -156,7 +156,7 @@ class Delivery:
         return [*files, WORKBOOK] if self.how.xlsx else files
 
     def check(self, names: Sequence[str], figures: Iterable[str] = ()) -> str:
-        """Refuse files of other origin where files and figures go; a note where they are of an earlier input."""
+        """Raise an error for existing files of another origin; return a note for an earlier state of the input."""
         if self.how.replace:
             return ""
         drawn = [f"{FIGURES}/{name}.{form}" for name in figures for form in self.how.formats]
@@ -165,9 +165,9 @@ class Delivery:
 
 
 def deliver(result: Result, to: Delivery, *, page: Page | None = None, written: str = "", drawings: str = "") -> None:
-    """Write the tables of a result, then draw it; a figure that fails leaves the tables, and status 1.
+    """Write the tables of a result, then draw it; a failing figure leaves the tables, with status 1.
 
-    ``written`` is the last line for the user, ``drawings`` its end if all was drawn.
+    ``written``: last line for the user. ``drawings``: its end if all was drawn.
     """
     from mixedlub.importers.case_writer import write_case
 
@@ -215,7 +215,7 @@ def _write_tables(result: Result, how: How, aside: Path) -> None:
 
 
 def _drawn(result: Result, to: Delivery, page: Page | None) -> bool:
-    """Draw a page, or figures one after another; whether all were drawn, and a sentence on each that was not."""
+    """Draw a page, or the figures in turn; returns success, and a message on failures."""
     from mixedlub.report.style import styled
 
     wrong: dict[str, Exception] = {}
@@ -239,7 +239,7 @@ def _drawn(result: Result, to: Delivery, page: Page | None) -> bool:
 
 
 def _figures(result: Result, to: Delivery, aside: Path, doing: Callable[[str], None]) -> dict[str, Exception]:
-    """Draw the figures into a folder; the errors of those that fail, by name."""
+    """Draw the figures into a folder; returns errors by name."""
     from mixedlub.report.panels import panel_figure
     from mixedlub.report.style import save
 
@@ -264,7 +264,7 @@ def _figures(result: Result, to: Delivery, aside: Path, doing: Callable[[str], N
 
 
 def _reason(error: Exception) -> str:
-    """Cause of a drawing that failed, in words."""
+    """Cause of a failed drawing as text."""
     if isinstance(error, MemoryError | BrokenProcessPool):
         return "memory ran out, or a process was ended from outside"
     return f"{type(error).__name__}: {error}".strip(": ")

@@ -1,4 +1,4 @@
-"""`mixedlub diagnose`: which physics is missing from the base model of a recorded case."""
+"""`mixedlub diagnose`: physics missing from the base model of a recorded case."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ def command(
         float, typer.Option(metavar="CHANCE", help="Level of the mismatch test, from 1e-9 to 0.5.")
     ] = 0.01,
 ) -> None:
-    """Name the missing physics of a recording.
+    """Identify the missing physics of a recording.
 
-    How sure, where it shows, what it is confused with, and what to test next.
+    Probability, conditions that show it, effects it can be confused with, and recommended tests.
     """
     from mixedlub.diagnosis.diagnose import diagnose_case
     from mixedlub.diagnosis.report import files

@@ -17,7 +17,7 @@ def command(
 ) -> None:
     """The catalogue of effects, or one of them in full.
 
-    Equation, source, parameters, fingerprint, what it is confused with and the test that separates it.
+    Equation, source, parameters, fingerprint, similar effects and the test that separates them.
     """
     from mixedlub.report.effect_pages import effects_text
 

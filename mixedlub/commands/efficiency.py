@@ -29,9 +29,9 @@ def command(
 ) -> None:
     """Efficiency of gear stages and their losses by origin.
 
-    Of one stage or several in series, each with its oil, bearings, seals and wheels in oil and air: map.csv and
-    loss_map.csv over torque and speed, losses.csv by part, breakdown.csv, stages.csv, mesh_cycle.csv and
-    tooth_pair.csv at one condition, duty.csv of a duty cycle, and figures.
+    One stage or several in series, each with its oil, bearings, seals and wheels in oil and air: map.csv and
+    loss_map.csv over torque and speed, losses.csv by part, breakdown.csv, stages.csv, mesh_cycle.csv and tooth_pair.csv
+    at one condition, duty.csv of a duty cycle, and figures.
     """
     import numpy as np
 
@@ -67,7 +67,7 @@ def command(
 
 
 def _notes(gearbox: Gearbox) -> Iterator[str]:
-    """Laws of parts with constants that no source confirms."""
+    """Laws of parts with constants not confirmed by a source."""
     laws = {part.law.title: part.law for stage in gearbox.stages for part in stage.parts}
     doubtful = [title for title, law in laws.items() if not law.sources and law.kind != "other"]
     if doubtful:

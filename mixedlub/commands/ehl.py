@@ -61,7 +61,7 @@ def command(
 
 
 MOST_PRINTED = 12
-"""Most contacts that are printed."""
+"""Largest number of contacts printed."""
 NEWTONIAN_PRESSURE = 0.5e9
 """Hertz pressure (Pa) above which no oil is Newtonian in a sliding contact."""
 

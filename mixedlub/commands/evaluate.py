@@ -1,4 +1,4 @@
-"""`mixedlub evaluate`: recordings of a rig turned into friction, with intervals."""
+"""`mixedlub evaluate`: friction from recordings of a rig, with intervals."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`mixedlub friction-laws`: the friction laws in words, and all of them side by side on a gear pair."""
+"""`mixedlub friction-laws`: friction laws as text, and their comparison on a gear pair."""
 
 from __future__ import annotations
 
@@ -104,5 +104,5 @@ def _compare(
 
 
 def _of_files(given: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """The coefficients by law; files that are named are relative to the folder of the file that names them."""
+    """Coefficients by law; file names are relative to the folder of the naming file."""
     return {name: str(folder / own) if isinstance(own, str) else own for name, own in given.items()}

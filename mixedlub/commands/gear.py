@@ -16,7 +16,7 @@ from mixedlub.schema.result import Result
 NAME = "gear"
 EXAMPLE = "mixedlub new gear --out my_gears\nmixedlub gear my_gears/gear.toml"
 MOST_PRINTED = 8
-"""Most torques that are printed."""
+"""Largest number of torques printed."""
 
 
 @delivers(NAME)

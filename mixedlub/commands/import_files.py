@@ -16,7 +16,7 @@ from profiles.errors import InputError
 
 NAME = "import"
 LONG = 5.0
-"""Judgement. Seconds after which an import says what it does."""
+"""Judgement. Time (s) after which an import reports its progress."""
 EXAMPLE = "mixedlub new case --out rig\nmixedlub import rig/recordings.csv --answers rig/system.toml --out imported"
 
 
@@ -47,10 +47,10 @@ def command(
 ) -> None:
     """Turn instrument files into a case folder.
 
-    The result is a case for simulate, check and diagnose. At a terminal, questions follow for what the
-    files lack (? explains one, =VALUE is one value for all rows); elsewhere they are listed with the --set line for
-    each answer. Units are never guessed. An existing case that differs is kept unless --overwrite is given.
-    Cut off a start-up and average raw readings before the import; --set import.every=10 keeps one reading of ten.
+    The result is a case for simulate, check and diagnose. At a terminal, questions follow for information missing in
+    the files (? explains a question, =VALUE sets a value for all rows); elsewhere they are listed with the --set line
+    for each answer. Units are never guessed. An existing case that differs is kept unless --overwrite is given. Cut off
+    a start-up and average raw readings before the import; --set import.every=10 keeps one reading of ten.
     """
     from mixedlub.importers.base import SHEET, Unanswered
     from mixedlub.importers.wizard import run
@@ -70,7 +70,7 @@ def command(
 
 @contextmanager
 def _progress_bar() -> Iterator[Callable[[str], None]]:
-    """A progress bar on stderr, hidden while a question is open; elsewhere a line a step once an import takes long."""
+    """A progress bar on stderr, hidden while a question is open; elsewhere a line per step of a long import."""
     from rich.console import Console
 
     console = Console(stderr=True)

@@ -1,4 +1,4 @@
-"""`mixedlub law-errors`: how far the laws of line contacts are from full solutions."""
+"""`mixedlub law-errors`: errors of laws of line contacts against full solutions."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ def command(
     ] = None,
     scheduler: Scheduler = None,
 ) -> None:
-    """How far the laws of film, heat and friction of line contacts are from full solutions.
+    """Errors of laws of film, heat and friction of line contacts against full solutions.
 
-    Contacts of gears, M 1 to 300 and L 3 to 22, as rigs of several speeds, loads and oil temperatures. Without OIL by
-    the solutions that the package has; with it they are solved anew, which takes some seconds a rig. An interrupted
-    run resumes when it is started again.
+    Contacts of gears, M 1 to 300 and L 3 to 22, as rigs of several speeds, loads and oil temperatures. Without OIL the
+    shipped solutions are used; with OIL they are computed, which takes some seconds a rig. An interrupted run resumes
+    when it is started again.
     """
     from mixedlub.ehl.solve import Way
     from mixedlub.report.law_errors import figures, fit_lines, law_lines

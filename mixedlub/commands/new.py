@@ -1,4 +1,4 @@
-"""`mixedlub new`: a template of a study, its factors, a case, contacts, gears, a gearbox, an evaluation; it runs."""
+"""`mixedlub new`: templates of a study, factors, a case, contacts, gears, a gearbox, an evaluation; each runs."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ ROWS = 40
 NOISE = 0.01
 """Relative standard deviation of the synthetic readings, as on the reference rigs of the catalogue."""
 SURFACES = ("ground", "superfinished")
-"""Surfaces of the reference rig that a template describes."""
+"""Surfaces of the reference rig in a template."""
 
 ELASTIC = {"model": "ldp", "tip_relief_um": [15, 15], "relief_length_mm": [2, 2], "lead_crown_um": 3}
 """Load sharing of the template of gears."""
@@ -148,7 +148,7 @@ def gear_files() -> dict[str, str]:
 
 
 def evaluation_files(name: str) -> dict[str, str]:
-    """The file of an evaluation and the tables that it names."""
+    """File of an evaluation and its tables."""
     from mixedlub.evaluate import EVALUATIONS
     from mixedlub.schema.section import tables
 
@@ -167,7 +167,7 @@ def efficiency_files() -> dict[str, str]:
 
 
 def friction_law_files() -> dict[str, str]:
-    """A study on whose gears friction laws are compared, and the coefficients that are the user's, as comments."""
+    """A study for the comparison of friction laws, with the user's coefficients as comments."""
     from mixedlub.chain.documented import described
     from mixedlub.friction import catalogue
 
@@ -220,7 +220,7 @@ def case_files(kind: str) -> dict[str, str]:
 
 
 def _reference(kind: str) -> dict[str, Any]:
-    """Tables of `system.toml` for the reference rig of a kind, with two of its surfaces where it has any."""
+    """Tables of `system.toml` for the reference rig of a kind, with up to two of its surfaces."""
     from mixedlub.case import reference_rigs
 
     given = reference_rigs.case(kind).system.model_dump(by_alias=True, exclude_unset=True)
@@ -253,7 +253,7 @@ def _recordings(kind: str) -> str:
 
 
 def _lines(file: type[Section], given: Given, wanted: Collection[str]) -> Iterator[str]:
-    """The tables of a file: given keys with their values, the others as comments with an example."""
+    """Tables of a file: given keys with values, others as comments with an example."""
     from mixedlub.schema.section import tables
     from mixedlub.schema.toml_file import toml_key
 

@@ -17,8 +17,8 @@ def command(
 ) -> None:
     """The laws of bearings, seals and wheels in oil and air, for `mixedlub efficiency`.
 
-    The page of a law has its equation, what it reads, its coefficients with those of known series, and what is known of
-    its constants.
+    The page of a law has its equation, inputs, coefficients with values for known series, and the status of its
+    constants.
     """
     from mixedlub.report.part_pages import parts_text
 

@@ -149,7 +149,7 @@ def command(
 
 
 def _together(wrong: list[InputError], done: int = 0) -> InputError:
-    """One error that names all files that cannot be evaluated, and how many others were."""
+    """Error naming all files that cannot be evaluated, and the number of evaluated files."""
     first, *others = wrong
     rule = "; and ".join((first.rule, "; ".join(str(error) for error in others))) if others else first.rule
     left = f" ({done} other file{'s' * (done > 1)} evaluated)" if done else ""
@@ -161,7 +161,7 @@ OPTIONS = ("unit", "spacing", "form", "method", "convention")
 
 @contextmanager
 def named_options(file: Path | None = None, trace: Profile | None = None) -> Iterator[None]:
-    """Errors of an option or trace, under its name on the command line."""
+    """Context for errors of an option or trace, reported by the name on the command line."""
     try:
         yield
     except InputError as error:

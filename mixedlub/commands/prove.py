@@ -1,4 +1,4 @@
-"""`mixedlub prove`: the project's own blind battery."""
+"""`mixedlub prove`: the blind test battery of the project."""
 
 from __future__ import annotations
 

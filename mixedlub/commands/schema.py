@@ -1,4 +1,4 @@
-"""`mixedlub schema`: JSON Schema of a file, with which editors complete and check it."""
+"""`mixedlub schema`: JSON Schema of a file, for completion and checks in editors."""
 
 from __future__ import annotations
 

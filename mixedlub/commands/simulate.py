@@ -15,7 +15,7 @@ from mixedlub.schema.result import Result, described
 NAME = "simulate"
 EXAMPLE = "mixedlub new case --out my_case\nmixedlub simulate my_case"
 INPUTS = ("system.toml", "recordings.csv", "conditions.csv")
-"""Files of a case that a simulation is of."""
+"""Files of a case that determine a simulation."""
 TABLES = {
     "simulation": described(
         run="number of the reading",
@@ -36,8 +36,8 @@ def command(
 ) -> None:
     """Readings of the base model at the conditions of a case.
 
-    Those of recordings.csv and conditions.csv, or of another table; nothing is fitted. Effects and calibration that
-    system.toml names are part of the model, as in the folder improved of a diagnosis.
+    At the conditions of recordings.csv and conditions.csv, or of another table; nothing is fitted. Effects and
+    calibration named in system.toml are part of the model, as in the folder improved of a diagnosis.
     """
     from mixedlub.case.folder import read_case, read_conditions, unpredicted_runs
     from mixedlub.case.simulation import simulate

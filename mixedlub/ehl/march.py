@@ -22,8 +22,7 @@ SLOW = 0.05
 
 @dataclass(frozen=True)
 class Energy:
-    """Linear energy equation of each column without convection along the film: matrix times temperature = right-hand
-    side.
+    """Linear energy equation of each column without convection along the film: matrix and right-hand side.
 
     ``capacity``: density times heat capacity times velocity (W/(m^2 K)). ``before``: present temperatures.
     """

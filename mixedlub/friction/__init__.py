@@ -1,4 +1,4 @@
-"""The catalogue of friction laws: one published formula a module, with those of installed plug-ins."""
+"""Catalogue of friction laws: a published formula per module, and laws of plug-ins."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from mixedlub.chain.friction_law import BASE, FRICTION_LAWS, PLACES, FrictionLaw
 
 
 def catalogue() -> Mapping[str, FrictionLaw]:
-    """All friction laws by name, that of the base model first, then those of contact points, then those of a mesh."""
+    """All friction laws by name: base model, laws of contact points, laws of a mesh."""
     return FRICTION_LAWS.all
 
 
 def find(name: str, where: str = "NAME") -> FrictionLaw:
-    """A friction law by name; an unknown one raises an error with the nearest known name.
+    """Friction law by name; the error for an unknown name gives the nearest known name.
 
     >>> import mixedlub as ml
     >>> print(repr(ml.friction.find("misharin")).splitlines()[0])

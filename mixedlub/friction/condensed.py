@@ -1,4 +1,4 @@
-"""Friction of a smooth film by a regression of full solutions for one oil, whose file `mixedlub condense` writes."""
+"""Friction of a smooth film by a regression of full solutions for one oil, from a file of `mixedlub condense`."""
 
 import inspect
 from collections.abc import Mapping
@@ -14,7 +14,7 @@ from mixedlub.laws.oil import ZERO_CELSIUS
 
 
 class Input(NamedTuple):
-    """A quantity of the regression: letter, name, unit with its factor to SI, and the value its logarithm is over."""
+    """A quantity of the regression: letter, name, unit with its factor to SI, and reference value of its logarithm."""
 
     letter: str
     name: str
@@ -24,17 +24,17 @@ class Input(NamedTuple):
 
     @property
     def column(self) -> str:
-        """Its name with its unit, as of a column."""
+        """Column name with unit."""
         return f"{self.name}_{self.unit}" if self.unit else self.name
 
     @property
     def written(self) -> str:
-        """Its unit as text has it."""
+        """Unit as text."""
         return {"": "-", "m_s": "m/s", "mPa_s": "mPa s"}.get(self.unit, self.unit)
 
     @property
     def ends(self) -> tuple[str, str]:
-        """Names of the coefficients that bound it."""
+        """Names of the coefficients that bound the quantity."""
         return f"least_{self.column}", f"largest_{self.column}"
 
 
@@ -51,7 +51,7 @@ TERMS = tuple(
     for order in range(4)
     for letters in combinations_with_replacement("psuvr" if order < 3 else _CUBIC, order)
 )
-"""Products of logarithms by their letters: all up to two, and those of three without the radius, which acts least."""
+"""Products of logarithms by their letters: all up to two, and of three without the radius, the weakest input."""
 
 
 def coefficient_name(term: str) -> str:
@@ -64,7 +64,7 @@ def coefficient_name(term: str) -> str:
 
 
 def columns(logarithms: Mapping[str, np.ndarray]) -> list[np.ndarray]:
-    """Every term, from the logarithm of each input by its letter."""
+    """All terms, from the logarithm of each input by its letter."""
     return [reduce(mul, (logarithms[letter] for letter in term), np.ones(())) for term in TERMS]
 
 
@@ -77,7 +77,7 @@ def _law(*quantities: np.ndarray, **coefficients: float) -> np.ndarray:
     reduced radius r (10 mm), each over the value in brackets. The viscosity stands for the temperature of this oil.
     Quantities beyond the range of the solutions are held at its ends, and flagged; only below the least sliding,
     as at a pitch point, friction falls in proportion to sliding. No asperities. The oil of a study is compared with
-    that of the solutions: viscosity and Eyring stress to 10 %, the pressure-viscosity coefficient to 20 %.
+    the oil of the solutions: viscosity and Eyring stress to 10 %, the pressure-viscosity coefficient to 20 %.
 
     Source: H. Xu, PhD thesis, Ohio State University, 2005, chapter 3, for the regression of a logarithm over
     transformed terms; these terms are others, which fit better.
@@ -98,13 +98,13 @@ def _law(*quantities: np.ndarray, **coefficients: float) -> np.ndarray:
 
 
 CELSIUS = (40, 75, 110)
-"""Temperatures at which the oil of a study is compared with that of the solutions."""
+"""Temperatures for the comparison of a study's oil with the oil of the solutions."""
 OIL = {
     **{f"oil_viscosity_{t}C": OfOil("viscosity", t + ZERO_CELSIUS, 1e-3, 0.1) for t in CELSIUS},
     **{f"oil_pressure_viscosity_{t}C": OfOil("pressure_viscosity", t + ZERO_CELSIUS, 1e-9, 0.2) for t in CELSIUS},
     "oil_eyring_stress": OfOil("eyring_stress", CELSIUS[0] + ZERO_CELSIUS, 1e6, 0.1),
 }
-"""What the oil of a study must have, by coefficient. Tolerances: viscometers and rheometers differ by so much."""
+"""Required properties of the study's oil, by coefficient. Tolerances: differences of viscometers and rheometers."""
 _OIL_UNITS = {"viscosity": "mPa s", "pressure_viscosity": "1/GPa", "eyring_stress": "MPa"}
 _OIL_WORDS = {
     **{f"oil_viscosity_{t}C": f"viscosity of the oil of the solutions at {t} °C" for t in CELSIUS},

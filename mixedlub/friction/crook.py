@@ -1,4 +1,4 @@
-"""Friction after Crook: a Newtonian film that its own shear heats."""
+"""Friction after Crook: a Newtonian film with shear heating."""
 
 import numpy as np
 
@@ -22,7 +22,7 @@ def crook(
     film_thickness: np.ndarray,
     hertz_pressure: np.ndarray,
 ) -> np.ndarray:
-    r"""Friction coefficient of a Newtonian film that its own shear heats (-).
+    r"""Friction coefficient of a Newtonian film with shear heating (-).
 
     .. math:: \mu = \frac{\eta_p v_s}{h\,\bar p}\,\frac{\operatorname{asinh} x}{x\sqrt{1 + x^2}},\quad
               x^2 = \frac{\beta_p\,\eta_p\,v_s^2}{8 k_f}

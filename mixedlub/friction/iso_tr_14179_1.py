@@ -34,8 +34,7 @@ def iso_tr_14179_1(
 
     .. math:: \mu_m = \frac{\nu^{a} K^{c}}{C_1 v_t^{d}}
 
-    nu in mm2/s, K in N/mm2, v_t in m/s. The loss factor that belongs to it is the standard's own, not that of ISO/TR
-    14179-2.
+    nu in mm2/s, K in N/mm2, v_t in m/s. It belongs to the loss factor of the same standard, not of ISO/TR 14179-2.
 
     Source: ISO/TR 14179-1:2001.
 

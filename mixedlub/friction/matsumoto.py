@@ -23,7 +23,7 @@ def matsumoto(
     .. math:: \mu_m = (1 - \xi)\mu_F + \xi\mu_B,\quad
               \xi = \tfrac12\log_{10}\frac{R_{z,1} + R_{z,2}}{h_{min}}
 
-    xi is 0 below a ratio of 1 and 1 above one of 100. The minimum film is that of Dowson and Higginson.
+    xi is 0 below a ratio of 1 and 1 above one of 100. The minimum film follows Dowson and Higginson.
 
     Source: S. Matsumoto, K. Morikawa, International Gear Conference, Lyon, 2014.
 

@@ -1,4 +1,4 @@
-"""Kinds of recording: one a file, each saying what its rows hold and which chain predicts them."""
+"""Kinds of recording: a file each, with the columns and the chain that predicts the readings."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from profiles.errors import InputError, nearest
 
 
 def kind(name: str, where: str = "kind") -> Kind:
-    """The kind of a name, or an error that names the nearest known one and the place ``where`` the name was given."""
+    """Return a kind by name; the error for an unknown name gives the nearest known name and the place ``where``."""
     if name not in _KINDS:
         raise InputError(f"no such kind; {nearest(name, _KINDS)}", where=where, value=name)
     return _KINDS[name]
@@ -21,6 +21,6 @@ def _sorted() -> dict[str, Kind]:
 
 _KINDS = _sorted()
 KINDS = tuple(_KINDS)
-"""Names of the kinds of this package and of those that other packages offer as ``mixedlub.kinds``."""
+"""Names of the kinds of this package and of plug-ins (entry points ``mixedlub.kinds``)."""
 
 __all__ = ["KINDS", "Kind", "kind"]

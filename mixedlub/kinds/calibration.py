@@ -1,4 +1,4 @@
-"""Calibration: a few inputs of the base model are free, each with the uncertainty stated in the case."""
+"""Calibration: free inputs of the base model, each with the uncertainty stated in the case."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ Inputs = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class Calibration:
-    """One free input: its prior, and how a value changes the chain's inputs; ``factor`` where it multiplies one.
+    """A calibrated input: its prior and the change it makes to the inputs. ``factor``: multiplicative.
 
-    Where it is the uncertainty of a base law, ``base_law`` is the law's id; readings are nearly linear in such a one.
+    ``base_law``: id of a base law if the input is its uncertainty; readings are nearly linear in such an input.
     """
 
     parameter: Parameter
@@ -31,7 +31,7 @@ class Calibration:
 
     @property
     def name(self) -> str:
-        """Its name in the report."""
+        """Name in the report."""
         return self.parameter.name
 
 
@@ -55,7 +55,7 @@ def _factor(name: str, spread: float, meaning: str, *inputs: str, power: int = 1
 
 
 def of_parameter(effect: Effect, name: str, value: float, sd: float) -> Calibration:
-    """A parameter of a known effect whose standard deviation is stated; lognormal where it must be positive."""
+    """Calibration of a known effect's parameter with a stated standard deviation; lognormal if it must be positive."""
     (p,) = (p for p in effect.parameters if p.name == name)
     if p.prior.value(-math.inf) < 0.0:
         prior: Normal | LogNormal = Normal(value, sd)
@@ -69,14 +69,14 @@ def of_parameter(effect: Effect, name: str, value: float, sd: float) -> Calibrat
 
 
 def of_base_law(effect: Effect, parameter: Parameter) -> Calibration:
-    """A parameter in which a base law is itself uncertain, as published laws of the same step differ."""
+    """Calibration of a parameter for the uncertainty of a base law, as published laws of the same step differ."""
     null = parameter.null_value
     own = replace(parameter, name=f"{effect.id}.{parameter.name}", prior=Normal(null, parameter.base_sd))
     return Calibration(own, lambda inputs, value: {}, null, (), base_law=effect.id)
 
 
 def calibrations(system: system_file.System) -> tuple[Calibration, ...]:
-    """The free inputs of a case: those whose stated uncertainty is above zero."""
+    """Free inputs of a case: inputs with a stated uncertainty above zero."""
     sd = system.uncertainty
     boundary = Parameter(
         "boundary_friction",

@@ -1,4 +1,4 @@
-"""Columns shared by several kinds of recording; a kind overrides what differs."""
+"""Columns common to several kinds of recording, which kinds may override."""
 
 from __future__ import annotations
 
@@ -54,5 +54,5 @@ FRICTION = Column(
 
 
 def surface(name: str) -> Column:
-    """A column that names a surface of the system."""
+    """Column with the name of a surface of the system."""
     return Column(name, "name", meaning="a surface of system.toml")

@@ -42,7 +42,7 @@ def point_reading(friction: np.ndarray) -> np.ndarray:
 
 
 def reduced_radius(radii_mm: tuple[float, float], key: str) -> float:
-    """Radius (m) of the two bodies together, by the sum of their curvatures; not of two planes.
+    """Reduced radius (m) of two bodies, from the sum of their curvatures; raises an error for two planes.
 
     >>> round(reduced_radius((25.4, 38.1), "radius_mm") * 1e3, 2)
     15.24
@@ -89,7 +89,7 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
 
 
 def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Calibration, ...]:
-    """Broad priors for an oil that is not specified."""
+    """Broad priors for an unspecified oil."""
     return oil_priors.calibrations(system, recorded["oil_temperature_C"] + ZERO_CELSIUS)
 
 

@@ -95,7 +95,7 @@ def _orders(table: Table, recorded: Table) -> Inputs:
 
 
 def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Calibration, ...]:
-    """Broad priors for an oil that is not specified; the film law is as uncertain as published laws disagree."""
+    """Broad priors for an unspecified oil; the film law is as uncertain as the differences of published laws."""
     oil = oil_priors.calibrations(system, recorded["oil_temperature_C"] + ZERO_CELSIUS)
     return (*oil, *(_of_line(recorded["load_N"]) if _is_line(system) else _of_ball(system)))
 

@@ -30,7 +30,7 @@ USUAL_PRESSURE = 1e9
 """Judgement. Typical Hertz pressure (Pa) of a ball on a disc in traction machines."""
 
 UNKNOWN_SPEED = 1.0
-"""Definition. Sliding speed (m/s) where none is recorded: any constant, since only its ratios show."""
+"""Definition. Sliding speed (m/s) if none is recorded: any constant, since only its ratios matter."""
 
 
 def constant_friction(boundary_friction: np.ndarray) -> np.ndarray:
@@ -73,9 +73,9 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
 
 
 def _conditions(table: Table, recorded: Table) -> Inputs:
-    """Operating conditions of the rows, for effects that need nothing else.
+    """Operating conditions of the rows, for effects without other inputs.
 
-    The bodies are not known: at the largest load the contact has a typical pressure of such rigs.
+    The bodies are unknown: at the largest load the contact has a typical pressure of such rigs.
     """
     inputs: Inputs = {}
     if "entrainment_speed_m_s" in table:
@@ -106,7 +106,7 @@ def _level(system: system_file.System, recorded: Table) -> float:
 
 
 def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Calibration, ...]:
-    """Broad priors for a friction coefficient, or for an oil where the film is computed, that are not specified."""
+    """Broad priors for an unspecified friction coefficient, or for an unspecified oil if the film is computed."""
     if resolved(system, recorded):
         return oil_priors.calibrations(system, recorded["oil_temperature_C"] + ZERO_CELSIUS)
     if _friction_is_given(system):
@@ -122,7 +122,7 @@ def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Cali
 
 
 def chain(system: system_file.System, table: Table) -> Chain:
-    """Film and asperity friction where they can be computed, else a constant coefficient."""
+    """Film and asperity friction if they can be computed, else a constant coefficient."""
     if resolved(system, table):
         return disc.chain(system, table)
     return (("friction", constant_friction), ("reading", disc.point_reading))

@@ -89,7 +89,7 @@ def reading(friction_torque: np.ndarray) -> np.ndarray:
 
 
 def drive_speed(table: Table) -> np.ndarray:
-    """Signed speed of the rows: rad/s, or m/s where a sliding speed is recorded."""
+    """Signed speed of the rows: m/s if a sliding speed is recorded, else rad/s."""
     present = [name for name in SPEEDS if name in table]
     if len(present) != 1:
         raise InputError(
@@ -131,7 +131,7 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
 
 
 def _warmer(table: Table, recorded: Table) -> np.ndarray:
-    """Oil temperature of the rows above the mean of the recording (K); zero where either has no temperature."""
+    """Oil temperature of the rows above the mean of the recording (K); zero without temperatures."""
     name = "oil_temperature_C"
     if name not in table or name not in recorded:
         return np.zeros((len(table), 1))
@@ -139,15 +139,15 @@ def _warmer(table: Table, recorded: Table) -> np.ndarray:
 
 
 def _load_column(table: Table, recorded: Table) -> str | None:
-    """The column that loads the drive, of those that are not zero throughout: the torque where there is a force too."""
+    """Name of the non-zero load column of the drive, preferably the torque; None without one."""
     there = (n for n in reversed(LOADS) if n in table and n in recorded and np.any(recorded[n] != 0.0))
     return next(there, None)
 
 
 def _heavier(table: Table, recorded: Table) -> np.ndarray:
-    """Logarithm of the load of the rows over the geometric mean of the recorded loads; zero where there is no load.
+    """Logarithm of the load of the rows over the geometric mean of the recorded loads; zero without a load.
 
-    An idle drive carries its own weight: it counts as loaded by the smallest recorded load.
+    An idle drive carries its weight: it counts as loaded by the smallest recorded load.
     """
     name = _load_column(table, recorded)
     if name is None:
@@ -178,7 +178,7 @@ def load_sense(table: Table) -> np.ndarray:
 
 
 def fill_channels(table: Table, recorded: Table) -> Table:
-    """Rows without the motor's torque: that of the shaft plus the median friction, else the median motor torque."""
+    """Table with an added motor torque: shaft torque plus median friction, else the median motor torque."""
     if MOTOR_TORQUE.name in table or MOTOR_TORQUE.name not in recorded:
         return table
     motor = recorded[MOTOR_TORQUE.name]
@@ -192,7 +192,7 @@ def fill_channels(table: Table, recorded: Table) -> Table:
 
 
 def _motor_column(table: Table) -> str | None:
-    """The column of the motor torque: its own channel, or the load torque of the drive."""
+    """Column of the motor torque: a separate channel, or the load torque of the drive."""
     return next((name for name in (MOTOR_TORQUE.name, "torque_Nm") if name in table), None)
 
 
@@ -214,7 +214,7 @@ def _largest(system: system_file.System, recorded: Table) -> float:
 
 
 def _complete(system: system_file.System, recorded: Table) -> tuple[np.ndarray, np.ndarray]:
-    """Readings of the complete drive, or of its parts where there are no others, and their speeds."""
+    """Readings of the complete drive and their speeds; of its parts if there are no others."""
     if system.recording.quantity not in recorded:
         return np.ones(1), np.ones(1)
     whole = ~gears_out(recorded)
@@ -223,9 +223,9 @@ def _complete(system: system_file.System, recorded: Table) -> tuple[np.ndarray, 
 
 
 def made_up_for(values: np.ndarray, speed: np.ndarray) -> float:
-    """Difference of fast and slow readings of one direction where their signs differ: a lower bound of the parts.
+    """Difference of fast and slow readings of a direction if their signs differ: a lower bound of the parts.
 
-    Zero where the signs agree or the difference is within the scatter of neighbouring speeds.
+    Zero if the signs agree or the difference is within the scatter of neighbouring speeds.
 
     >>> round(made_up_for(np.array([-0.2, 0.5, 0.6, -0.3, -0.2, 0.5]), np.array([1.0, 2.0, 2.0, 1.0, 1.0, 2.0])), 1)
     0.7

@@ -36,27 +36,24 @@ SUBJECTS = ("gears", "contact", "drive", "oil")
 class Kind:
     """A kind of recording: its columns, the sections of the system it needs, the chain that predicts readings.
 
-    ``subject`` is the test object, one of SUBJECTS. ``readings`` are the columns of which a recording has one, and
-    ``scale`` is the factor from SI to their unit; ``uses`` are optional sections, ``unread_of_oil`` keys of the oil
-    that change nothing. ``standard`` is the rig on which the catalogue compares effects. ``base_model`` names the laws
-    of the chain for a reader of the answer.
+    ``subject``: test object, one of SUBJECTS. ``readings``: columns, exactly one of which is in a recording. ``scale``:
+    factor from SI to their unit. ``uses``: optional sections. ``unread_of_oil``: keys of the oil without influence.
+    ``standard``: rig for the comparison of effects in the catalogue. ``base_model``: laws of the chain as text.
 
-    ``inputs(system, rig, table, recorded)`` gives the chain's inputs as arrays of shape (rows, points),
-    one of the two of length one where a quantity does not depend on it; the chain ends in ``reading``,
-    shape (rows, 1), in SI. ``recorded`` is the recording of the case, from which typical sizes (the largest
-    speed, the duration) are taken, so that other predictions use the same ones; ``extra_calibration`` uses it to scale
-    the priors of unknown inputs. ``instrument_fault(recorded, row, excess, sd)`` describes the fault that
-    explains a residual ``excess`` of reading ``row`` with noise ``sd`` (unit of the column). ``logarithmic`` kinds span
-    decades and are compared by the logarithm of the reading. ``part_rigs`` are the names in the column ``rig`` whose
-    readings are compared with a part of the base model. ``instrument_channels`` are further outputs of the
-    instrument: read as columns, but not test conditions. ``fill_channels(table, recorded)`` adds them, predicted, to
-    rows that were not recorded. ``base_inputs`` are quantities of the base model before calibration, and the names
-    under which effects read them. ``column_limits(system)`` are the lowest and highest values of a column on this rig,
-    by its name. ``direction(table)`` is the signed speed of each row, for kinds whose reading changes sign with it.
+    ``inputs(system, rig, table, recorded)``: inputs of the chain as arrays of shape (rows, points), of length one on
+    axes without dependence; the chain ends in ``reading``, shape (rows, 1), in SI. ``recorded`` is the recording of the
+    case, which sets typical sizes (the largest speed, the duration), also for other predictions; ``extra_calibration``
+    uses it to scale the priors of unknown inputs. ``instrument_fault(recorded, row, excess, sd)``: description of the
+    fault that explains a residual ``excess`` of reading ``row`` with noise ``sd`` (unit of the column). ``logarithmic``
+    kinds span decades and are compared by the logarithm of the reading. ``part_rigs``: names in the column ``rig`` of
+    readings that are compared with a part of the base model. ``instrument_channels``: other outputs of the instrument,
+    read as columns, but not test conditions. ``fill_channels(table, recorded)`` adds them, predicted, to rows without a
+    recording. ``base_inputs``: quantities of the base model before calibration, and their names in effects.
+    ``column_limits(system)``: lowest and highest values of columns on this rig. ``direction(table)``: signed speed of
+    each row, for kinds with readings that change sign with it.
 
-    For imports and figures: ``either`` are columns of which a table has one; histories (``is_history``) are plotted
-    over time; logged series (``is_logged``) may be thinned; ``asks_for_oil`` means that the import requests the
-    properties of the oil.
+    For imports and figures: ``either``: alternative columns. Histories (``is_history``) are plotted over time; logged
+    series (``is_logged``) may be thinned. ``asks_for_oil``: the import requests the properties of the oil.
     """
 
     name: str
@@ -91,21 +88,21 @@ class Kind:
 
     @property
     def rank(self) -> tuple[int, str]:
-        """The place of the kind in lists."""
+        """Position of the kind in lists."""
         return SUBJECTS.index(self.subject), self.name
 
     @property
     def about(self) -> str:
-        """The recorded quantity: first line of the docstring of the kind's module."""
+        """Recorded quantity: first line of the docstring of the kind's module."""
         return (inspect.getdoc(inspect.getmodule(self.inputs)) or self.name).split("\n")[0]
 
     @property
     def quantities(self) -> tuple[str, ...]:
-        """Names of the columns, one of which is the reading of a recording."""
+        """Names of the possible reading columns."""
         return tuple(column.name for column in self.readings)
 
     def is_unsigned(self, quantity: str) -> bool:
-        """Whether readings are positive apart from noise; those that depend on direction are signed."""
+        """Whether readings are positive apart from noise; readings that depend on direction are signed."""
         return quantity in self.quantities and self.direction is None and not self.logarithmic
 
 
@@ -123,14 +120,14 @@ ZERO_LOAD = 1e-3
 
 
 def inverse_load(system: system_file.System, table: Table, recorded: Table) -> Inputs:
-    """Smallest recorded load over that of each row, for friction coefficients recorded at different loads."""
+    """Smallest recorded load over the load of each row, for friction coefficients recorded at different loads."""
     if system.recording.quantity != "friction_coefficient" or "load_N" not in table or "load_N" not in recorded:
         return {}
     return inverse_of(np.abs(table["load_N"]), np.abs(recorded["load_N"]))
 
 
 def inverse_of(load: np.ndarray, recorded: np.ndarray) -> Inputs:
-    """Smallest recorded load over that of each row, where loads differ enough to separate a force from a share.
+    """Smallest recorded load over the load of each row, if loads differ enough to separate a force from a share.
 
     >>> inverse_of(np.array([10.0, 20.0]), np.array([10.0, 40.0]))["inverse_load"][:, 0].tolist()
     [1.0, 0.5]
@@ -149,7 +146,7 @@ def gears_out(table: Table) -> np.ndarray:
 
 
 def varies(values: np.ndarray) -> bool:
-    """Whether a condition, in absolute units, was varied rather than constant; the only definition of this.
+    """Whether a condition, in absolute units, was varied; the only definition of this.
 
     >>> varies(np.array([20.0, 20.3])), varies(np.array([20.0, 21.0]))
     (False, True)
@@ -158,7 +155,7 @@ def varies(values: np.ndarray) -> bool:
 
 
 def column(values: np.ndarray | float) -> np.ndarray:
-    """One value per row, shaped (rows, 1)."""
+    """Values shaped (rows, 1)."""
     return np.asarray(values, dtype=float)[:, None]
 
 
@@ -173,8 +170,8 @@ def bookkeeping_inputs(system: system_file.System, table: Table) -> Inputs:
 def ageing(recorded: Table, sequence: np.ndarray) -> np.ndarray:
     """Share of the programme's ageing completed at each row, at a rate that doubles every 10 K.
 
-    This is van 't Hoff's rule of thumb for reactions such as oxidation. Where no temperature is recorded, ageing
-    follows the programme. ``sequence`` is shaped (rows, 1).
+    This is van 't Hoff's rule of thumb for reactions such as oxidation. Without recorded temperatures, ageing follows
+    the programme. ``sequence`` is shaped (rows, 1).
 
     >>> place = np.linspace(0.0, 1.0, 5)
     >>> run = Table({"sequence": place, "temperature_C": np.array([20.0, 20.0, 20.0, 80.0, 80.0])}, "run")
@@ -195,7 +192,7 @@ def ageing(recorded: Table, sequence: np.ndarray) -> np.ndarray:
 
 
 def programme(table: Table, recorded: Table) -> Inputs:
-    """For rows with a time: the time, and the share of the recording's duration as position in the programme."""
+    """For rows with a time: time, and share of the recording's duration as position in the programme."""
     if "time_s" not in table:
         return {}
     inputs: Inputs = {"time": column(table["time_s"])}

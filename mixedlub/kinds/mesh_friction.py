@@ -34,7 +34,7 @@ def reading(friction: np.ndarray) -> np.ndarray:
 
 
 def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) -> Inputs:
-    """Chain inputs of the rows of a table: one contact point a row."""
+    """Chain inputs of the rows of a table, a contact point per row."""
     points, share = _contacts(rig, table)
     known = share if recorded is table else _contacts(rig, recorded)[1]
     along = motion_inputs(points, table["torque_Nm"], table["speed_rpm"] * np.pi / 30.0)
@@ -53,7 +53,7 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
 
 
 def _contacts(rig: Rig, table: Table) -> tuple[Mesh, np.ndarray]:
-    """The contact point of every row and its load share."""
+    """Contact point of every row and its load share."""
     points = at_roll_angle(rig.gears, rig.sharing, np.radians(table["roll_angle_deg"]), slices=1)
     share = np.empty(len(table))
     for level in np.unique(table["torque_Nm"]):
@@ -63,12 +63,12 @@ def _contacts(rig: Rig, table: Table) -> tuple[Mesh, np.ndarray]:
 
 
 def _asked_of(share: np.ndarray, table: Table) -> np.ndarray:
-    """The torque that would give the contact of every row its load if a single pair carried all."""
+    """Torque at which a single tooth pair carrying all load would have each row's contact load."""
     return np.asarray(table["torque_Nm"] * np.maximum(share, LEAST_SHARE))
 
 
 def column_limits(system: system_file.System) -> dict[str, tuple[float, float]]:
-    """Limits of the roll angle: contact exists on the path of contact only."""
+    """Limits of the roll angle: contact exists only on the path of contact."""
     if system.gears is None:
         return {}
     pair = gear_pair(system.gears)

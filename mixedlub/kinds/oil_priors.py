@@ -1,4 +1,4 @@
-"""Priors of an oil that is not specified: the free properties and their ranges."""
+"""Priors of an unspecified oil: free properties and their ranges."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ FALLS = ("temperature_viscosity", "known_fall", "fall_from_first")
 
 
 def missing(system: system_file.System) -> tuple[str, ...]:
-    """Free properties that are unknown: neither given nor with a stated uncertainty."""
+    """Unknown free properties: neither given nor with a stated uncertainty."""
     section, sd = system.lubricant or system_file.Lubricant(), system.uncertainty
     known = section.pressure_viscosity_per_GPa or section.known_pressure_viscosity
     gaps = (
@@ -74,10 +74,10 @@ def moved(oil: Lubricant, pivot: float, level: float = 1.0, slope: float = 1.0) 
 
 
 def calibrations(system: system_file.System, temperature: np.ndarray, *, level: float = 1.0) -> tuple[Calibration, ...]:
-    """Broad priors for the properties in ``missing``; ``temperature`` (K) is that of the recording.
+    """Broad priors for the properties in ``missing``; ``temperature`` (K): temperatures of the recording.
 
-    ``level`` is the factor on the assumed viscosity that the readings suggest, already in the inputs.
-    Where the recording spans temperatures, the slopes against temperature are unknown as well.
+    ``level``: factor on the assumed viscosity suggested by the readings, already in the inputs. If the recording spans
+    temperatures, the slopes against temperature are unknown as well.
     """
     gaps = missing(system)
     if gaps:
@@ -143,7 +143,7 @@ def calibrations(system: system_file.System, temperature: np.ndarray, *, level: 
 
 
 def pivot_of(temperature: np.ndarray) -> float:
-    """The temperature (K) about which the slope of an unspecified oil is varied."""
+    """Temperature (K) about which the slope of an unspecified oil is varied."""
     return float(np.exp(np.mean(np.log(temperature))))
 
 
@@ -179,7 +179,7 @@ def _turned(oil: Lubricant, pivot: float, nominal: float) -> Any:
 
 
 def _bowed(pivot: float) -> Any:
-    """Viscosity, and its fall with temperature, of an oil whose line in ASTM D341 is a parabola."""
+    """Viscosity, and its fall with temperature, of an oil with a parabola in place of the line in ASTM D341."""
 
     def bow(kelvin: Any) -> Any:
         return ((kelvin - pivot) / FIFTY_KELVIN) ** 2

@@ -1,4 +1,4 @@
-"""The reference rig of a kind: effects are compared on it, and new cases start from it."""
+"""Reference rig of a kind, for the comparison of effects and as a start of new cases."""
 
 from __future__ import annotations
 
@@ -49,12 +49,12 @@ RELATIVE_NOISE = 0.01
 
 @dataclass(frozen=True)
 class StandardRig:
-    """The reference rig of a kind and its test.
+    """Reference rig of a kind and its test.
 
-    ``sections`` are the tables of `system.toml` except the surfaces; ``noise`` is the absolute part of the standard
-    deviation of a reading, in its unit; ``conditions`` are the varied conditions by their names in fingerprints: column
-    and levels, in all combinations. ``channels(columns, reading)`` computes the instrument's further channels from the
-    conditions and the base model's reading, which is called where needed.
+    ``sections``: tables of `system.toml` except the surfaces. ``noise``: absolute part of the standard deviation of a
+    reading, in its unit. ``conditions``: varied conditions by name in fingerprints, with column and levels, in all
+    combinations. ``channels(columns, reading)``: additional instrument channels, from the conditions and a function
+    that returns the base model's reading.
     """
 
     sections: Mapping[str, Any]

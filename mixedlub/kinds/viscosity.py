@@ -76,7 +76,7 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
 
 
 def _oil(system: system_file.System, rig: Rig, recorded: Table) -> Lubricant:
-    """The oil, with the viscosity level estimated from the readings where it is not given."""
+    """The oil; an unknown viscosity level is estimated from the readings."""
     kelvin = recorded["temperature_C"] + oil.ZERO_CELSIUS
     return oil_priors.moved(rig.oil(), oil_priors.pivot_of(kelvin), _level(system, recorded))
 
@@ -86,7 +86,7 @@ def _pressure(table: Table) -> np.ndarray:
 
 
 def _level(system: system_file.System, recorded: Table) -> float:
-    """Factor on the assumed viscosity, estimated from readings near ambient pressure where it is not given."""
+    """Factor on an assumed viscosity, estimated from readings near ambient pressure."""
     if "viscosity" not in oil_priors.missing(system):
         return 1.0
     near = _pressure(recorded) <= max(NEAR_AMBIENT_MPA * 1e6, float(_pressure(recorded).min()))
@@ -96,7 +96,7 @@ def _level(system: system_file.System, recorded: Table) -> float:
 
 
 def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Calibration, ...]:
-    """Broad priors for an oil that is not specified: level and slope against temperature and against pressure."""
+    """Broad priors for an unspecified oil: level and slope against temperature and against pressure."""
     kelvin = recorded["temperature_C"] + oil.ZERO_CELSIUS
     pressurised = float(np.ptp(_pressure(recorded))) > 0
     return tuple(

@@ -20,20 +20,20 @@ if TYPE_CHECKING:
     import pandas as pd
 
 MOST_ROWS = 6_000
-"""Most rows of the chart, which browsers redraw within about a second."""
+"""Largest number of rows of the chart, which browsers redraw within about a second."""
 MOST_BYTES = 2_500_000
-"""Longest text of those rows, in the chart and again as a file: a page has up to 7 MB besides, and is to have 10."""
+"""Largest text of these rows, in the chart and again as a file: a page has up to 7 MB besides, and at most 10."""
 SHARES = (4, 1, 1, 1)
-"""Levels that are kept of pairings, oil temperatures, torques and speeds, relative to each other."""
+"""Relative numbers of levels kept for pairings, oil temperatures, torques and speeds."""
 DIGITS = 5
 SIDES = ("pinion_surface", "gear_surface")
 _PLAIN = ",.:;/() -+_|"
-"""Characters besides letters and digits that stand for themselves in a data address."""
+"""Unescaped characters of a data address besides letters and digits."""
 
 
 @dataclass(frozen=True, eq=False)
 class ChartRows:
-    """Rows of the table of a study, their text, and a sentence on the choice of these rows."""
+    """Rows of the table of a study, their text, and a sentence on their choice."""
 
     table: pd.DataFrame
     text: str
@@ -41,12 +41,12 @@ class ChartRows:
 
     @property
     def address(self) -> str:
-        """The rows as a file within a link."""
+        """The rows as a data link."""
         return f"data:text/csv;charset=utf-8,{quote(self.text, safe=_PLAIN)}"
 
 
 def chart_rows(results: Results, most: int = MOST_ROWS, most_bytes: int = MOST_BYTES) -> ChartRows:
-    """The rows of the chart: at most ``most``, and fewer where many columns would make their text too long."""
+    """Rows of the chart: at most ``most``, fewer if many columns make their text too long."""
     while True:
         places = kept(results, most)
         table = _table(results, places)
@@ -59,10 +59,10 @@ def chart_rows(results: Results, most: int = MOST_ROWS, most_bytes: int = MOST_B
 
 
 def kept(results: Results, most: int) -> tuple[np.ndarray, ...]:
-    """Places of pairings by roughness, then of oil temperatures, torques and speeds; at most ``most`` conditions.
+    """Indices of pairings by roughness, then of oil temperatures, torques and speeds; at most ``most`` conditions.
 
-    A condition has all its levels, or as many as each other that is thinned. Pairings, of which there are at least four
-    times as many, take what room is left.
+    A condition keeps all its levels, or the same number as every other thinned condition. Pairings, at least four times
+    as many, take the remaining rows.
     """
     shape, levels = results.study.plan.shape, results.study.file.conditions
 
@@ -102,7 +102,7 @@ def rounded(values: np.ndarray) -> np.ndarray:
 
 
 def _choice(results: Results, places: Sequence[np.ndarray]) -> str:
-    """How many conditions the chart has, and which."""
+    """Number and choice of the conditions in the chart, as text."""
     counts = results.study.plan.shape
     if prod(counts) == prod(len(p) for p in places):
         return f"The chart has every condition ({results.study.conditions}), with numbers of {DIGITS} digits."

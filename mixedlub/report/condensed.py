@@ -1,4 +1,4 @@
-"""Figures of a condensed friction law: residuals, and where it parts from the published law."""
+"""Figures of a condensed friction law: residuals, and deviation from the published law."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def _residuals(table: pd.DataFrame) -> Figure:
 
 
 def _against(table: pd.DataFrame) -> Figure:
-    """Friction over sliding by both laws, at the middle viscosity: a panel a pressure, a colour a speed."""
+    """Friction over sliding by both laws, at the middle viscosity: a panel per pressure, a colour per speed."""
     middle = _middle(table["viscosity_mPa_s"])
     table = table[table["viscosity_mPa_s"] == middle]
     pressures, speeds = np.unique(table["hertz_pressure_GPa"])[1:], np.unique(table["entrainment_speed_m_s"])[::2]

@@ -1,4 +1,4 @@
-"""How the straight line of loss over composite roughness depends on the short cut-off of the traces."""
+"""Sensitivity of the line of loss over composite roughness to the short cut-off of the traces."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from mixedlub.study.plan import Study
 from profiles.errors import InputError
 
 FACTORS = (0.5, 1.0, 2.0, 3.2)
-"""Short cut-offs over those of the study; the last takes 2.5 um to the next of ISO 3274, 8 um."""
+"""Short cut-offs relative to the study; the last takes 2.5 um to the next of ISO 3274, 8 um."""
 MOST_TRACES, MOST_ROWS = 12, 20_000
-"""Most traces and conditions that are computed again."""
+"""Largest number of traces and of recomputed conditions."""
 
 
 def cutoff_rows(results: Results) -> list[tuple[str, str, str, str]]:
-    """Short cut-off, least and largest R^2, largest boundary area ratio; empty where no trace has a cut-off."""
+    """Short cut-off, least and largest R^2, largest boundary area ratio; empty without traces with a cut-off."""
     study = results.study
     with collected():
         own = {name: study.rig.profile(name).cutoffs.get("short_cutoff") for name in _traced(study)}

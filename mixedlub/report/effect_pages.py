@@ -18,7 +18,7 @@ from mixedlub.effects import catalogue, find
 from mixedlub.kinds import KINDS
 
 RIGS = KINDS
-"""Standard rigs by kind, in the order in which pages show them."""
+"""Standard rigs by kind, in the order of the pages."""
 SAME_SIGNATURE = 0.95
 """Cosine of two signatures above which the standard rig cannot distinguish the effects."""
 
@@ -29,14 +29,14 @@ _RIG_INDENT = 20
 
 
 def shown(effect: Effect) -> dict[str, float]:
-    """Parameter values that show the effect: the prior median, or one sd above it where the median is null."""
+    """Parameter values that show the effect: the prior median, or one sd above it if the median is null."""
     middle = effect.prior_medians
     return {p.name: p.prior.value(1.0) if middle[p.name] == p.null else middle[p.name] for p in effect.parameters}
 
 
 @cache
 def share(effect_id: str, rig: str) -> np.ndarray | None:
-    """Relative change of each reading of a standard rig by the effect; None where it cannot act."""
+    """Relative change of each reading of a standard rig by the effect; None if it cannot act."""
     forward = reference_rigs.forward(rig)
     effect = next((e for e in forward.effects() if e.id == effect_id), None)
     if effect is None:
@@ -47,7 +47,7 @@ def share(effect_id: str, rig: str) -> np.ndarray | None:
 
 @cache
 def share_of_law(effect_id: str, law: str, rig: str) -> np.ndarray:
-    """Relative change of each reading of a standard rig by a named law of the effect, as a study takes it."""
+    """Relative change of each reading of a standard rig by a named law of the effect, as in a study."""
     forward = reference_rigs.forward(rig)
     effect = next(e for e in forward.effects() if e.id == effect_id)
     base = forward.predict()
@@ -139,7 +139,7 @@ def _calibrated(rig: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def lookalikes(effect_id: str, rig: str) -> dict[str, float]:
-    """Other effects whose signature on the standard rig has a cosine above 0.95 with this one's, nearest first."""
+    """Other effects with a cosine above 0.95 between the signatures on the standard rig, nearest first."""
     known = signatures(rig)
     if effect_id not in known:
         return {}
@@ -150,7 +150,7 @@ def lookalikes(effect_id: str, rig: str) -> dict[str, float]:
 
 
 def effects_text(effect_id: str | None = None) -> str:
-    """The page of one effect, or the table of all of them."""
+    """Page of an effect, or table of all effects."""
     return _table() if effect_id is None else _page(find((effect_id,))[0])
 
 
@@ -197,7 +197,7 @@ def _on_rigs(effect: Effect) -> list[str]:
 
 
 def _of_laws(effect: Effect, rig: str) -> dict[str, str]:
-    """What each published law of the effect changes on the gears of studies, by the line that says so."""
+    """Influence of each published law of the effect on the gears of studies, by heading."""
     if rig != "gear_pair":
         return {}
     own = next(e for e in reference_rigs.forward(rig).effects() if e.id == effect.id)

@@ -22,15 +22,15 @@ if TYPE_CHECKING:
 
 LEVELS = 12
 CURVES = 5
-"""Most curves of a figure of the efficiency."""
+"""Largest number of curves in a figure of the efficiency."""
 LEAST_LEVELS = 2
-"""Fewest torques and speeds that a map is drawn of."""
+"""Smallest number of torques and speeds of a map."""
 
 
 def efficiency_figures(
     title: str, losses: Losses, cycles: Sequence[MeshCycle], tables: Mapping[str, pd.DataFrame]
 ) -> dict[str, Drawing]:
-    """Every figure by the name of its file."""
+    """All figures by file name."""
     return {
         "map": partial(map_figure, title, losses),
         "breakdown": partial(breakdown_figure, title, losses),
@@ -41,7 +41,7 @@ def efficiency_figures(
 
 
 def map_figure(title: str, losses: Losses) -> Figure | None:
-    """Loss and gearbox efficiency over torque and speed; None of a single torque or speed."""
+    """Loss and gearbox efficiency over torque and speed; None for a single torque or speed."""
     from matplotlib.figure import Figure
     from matplotlib.ticker import MaxNLocator
 

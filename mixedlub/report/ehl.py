@@ -1,4 +1,4 @@
-"""Figures of line contacts: pressure, film, temperature and shear through each, and results of all of them."""
+"""Figures of line contacts: pressure, film, temperature and shear through each, and results of all."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ if TYPE_CHECKING:
     import pandas as pd
 
 VIEW = (-1.6, 1.3)
-"""Part of the contact that is drawn (half widths)."""
+"""Drawn part of the contact (half widths)."""
 MOST_DRAWN = 24
-"""Most contacts that have a figure of their own; of more, evenly spaced ones."""
+"""Largest number of contacts with a separate figure; evenly spaced if there are more."""
 ALONG = "place along the flow over the half width (-)"
 
 
 def ehl_figures(contacts: pd.DataFrame, profiles: pd.DataFrame) -> dict[str, Drawing]:
-    """A figure of each contact with a solution, or of evenly spaced ones of many, and one of all."""
+    """A figure per solved contact, up to a number, and one of all contacts."""
     solved = np.flatnonzero(contacts["status"] == "converged")
     picked = np.unique(np.linspace(0, solved.size - 1, min(solved.size, MOST_DRAWN)).round().astype(int))
     drawn: dict[str, Drawing] = {}
@@ -32,7 +32,7 @@ def ehl_figures(contacts: pd.DataFrame, profiles: pd.DataFrame) -> dict[str, Dra
 
 
 def _contact(contact: pd.Series, profile: pd.DataFrame) -> tuple[Panel, ...]:
-    """Pressure, film, temperatures and shear stress of one contact, against the place in half widths."""
+    """Pressure, film, temperatures and shear stress of a contact, over the position in half widths."""
     profile = profile.assign(place=profile["position_mm"] / contact["half_width_mm"])
     profile = profile[profile["place"].between(*VIEW)]
     place = profile["place"].to_numpy()
@@ -51,7 +51,7 @@ def _contact(contact: pd.Series, profile: pd.DataFrame) -> tuple[Panel, ...]:
 
 
 def _summary(table: pd.DataFrame) -> tuple[Panel, ...]:
-    """Films, friction, pressure and temperatures of all contacts, by their place on a path or their number."""
+    """Films, friction, pressure and temperatures of all contacts, by position on a path or number."""
     on_path = "position_mm" in table
     place, words = (
         ("position_mm", "position on the path of contact (mm)") if on_path else ("contact", "contact (number)")

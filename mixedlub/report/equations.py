@@ -1,4 +1,4 @@
-"""Equations as inline SVG: TeX of docstrings, shown without scripts or network."""
+"""Equations as inline SVG: TeX of docstrings, without scripts or network."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _GROWING = re.compile(r"\\(?:left|right|big[lr])(?![A-Za-z])")
 
 @lru_cache(maxsize=512)
 def equation(tex: str, size: float = SIZE) -> str:
-    r"""A formula as an `svg` element on the baseline of the text; the TeX itself where it cannot be typeset.
+    r"""A formula as an `svg` element on the baseline of the text; the TeX if it cannot be typeset.
 
     >>> equation(r"\mu = \tau / p_0")[:11], equation(r"\nosuchcommand")
     ('<svg class=', '<code>\\nosuchcommand</code>')
@@ -46,7 +46,7 @@ def equation(tex: str, size: float = SIZE) -> str:
 
 
 def _simplified(tex: str) -> str:
-    r"""TeX restricted to what matplotlib can typeset.
+    r"""TeX restricted to the commands of matplotlib.
 
     >>> _simplified(r"\tfrac43 E")
     '\\frac{4}{3} E'

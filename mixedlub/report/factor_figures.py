@@ -1,4 +1,4 @@
-"""Figures of an experiment: which factor decides the response, and how the response moves with each."""
+"""Figures of an experiment: influence of each factor on the response."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ if TYPE_CHECKING:
     from mixedlub.schema.result import Drawing
 
 MOST_NAMED = 18
-"""Most characters of a name on an axis."""
+"""Largest number of characters of a name on an axis."""
 MOST_NAMES = 6
-"""Most names of levels along an axis."""
+"""Largest number of level names along an axis."""
 MOST_PAIRS = 10
-"""Most interactions that are drawn."""
+"""Largest number of interactions drawn."""
 ALONE, WITH_OTHERS = "#21618c", "#a9cce3"
 
 
 def factor_figures(decided: Decided) -> tuple[dict[str, Drawing], dict[str, str]]:
-    """The indices as bars, interactions and main effects, and their captions."""
+    """Indices as bars, interactions and main effects, with captions."""
     what = in_words(decided.response)
     ends = "" if decided.indices.total_ends is None else " Bars of error: 95 % intervals of the resampled runs."
     captions = {
@@ -101,7 +101,7 @@ def _main_effects(decided: Decided) -> Figure:
 
 
 def _name_levels(panel: Axes, names: list[str]) -> None:
-    """Names of levels along the axis where there are few."""
+    """Name the levels along the axis if there are few."""
     if len(names) > MOST_NAMES:
         panel.set_xticks([])
         return

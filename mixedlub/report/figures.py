@@ -37,7 +37,7 @@ OVER_SPEED = {
     "area_ratio": "Boundary area ratio",
     "mean_asperity_load_share": "Share of the load that asperities carry",
 }
-"""Quantities drawn over speed, those that the study has."""
+"""Quantities drawn over speed, if the study has them."""
 MOST_PANELS = 6
 MOST_TEMPERATURES = 2
 
@@ -121,7 +121,7 @@ def _hollow(outside: np.ndarray) -> str:
 
 
 def shaded(results: Results) -> str:
-    """Meaning of the shaded bands; empty where there are none."""
+    """Meaning of the shaded bands; empty without bands."""
     return f" Shaded: {BANDS[results.study.plan.options.bands]}." if has_bands(results) else ""
 
 
@@ -130,7 +130,7 @@ BANDS = {
     "short_cutoff": "from the lowest to the highest value at half, one and two short cut-offs",
     "both": "from the lowest to the highest end of the 90 % bands of the traces at half, one and two short cut-offs",
 }
-"""What a band spans, by the option of the study."""
+"""Meaning of a band, by option of the study."""
 
 
 def _title_words(more: str) -> str:
@@ -157,7 +157,7 @@ def _symbols(results: Results, theta: int) -> str:
 
 
 def _some_of(levels: Sequence[float], most: int, what: str, unit: str) -> str:
-    """The levels that are drawn, as a sentence of the caption; empty where all are drawn.
+    """Sentence on the drawn levels for a caption; empty if all are drawn.
 
     >>> _some_of([500, 1000, 1500, 2000], 2, "speeds", "rpm"), _some_of([500], 2, "speeds", "rpm")
     (' Drawn are 2 of 4 speeds: 500 and 2000 rpm.', '')
@@ -170,7 +170,7 @@ def _some_of(levels: Sequence[float], most: int, what: str, unit: str) -> str:
 
 
 def groups(results: Results) -> list[tuple[str, str, np.ndarray]]:
-    """Pairings drawn in one figure: key, words and indices."""
+    """Pairings drawn in one figure: key, text and indices."""
     has_equal = any(a == b for a, b in results.study.pairings)
     smoothest = smoothest_surface(results)
     return [
@@ -180,7 +180,7 @@ def groups(results: Results) -> list[tuple[str, str, np.ndarray]]:
 
 
 def equal_pairings(results: Results) -> np.ndarray:
-    """Pairings of a surface with itself, smoothest first, at most six; a selection of all where there are none."""
+    """Pairings of a surface with itself, smoothest first, at most six; a selection of all if there are none."""
     pairings = results.study.pairings
     same = np.array([i for i, (a, b) in enumerate(pairings) if a == b], dtype=int)
     if not same.size:
@@ -189,13 +189,13 @@ def equal_pairings(results: Results) -> np.ndarray:
 
 
 def pairings_with(results: Results, surface: str) -> np.ndarray:
-    """Pairings that contain a surface, smoothest first, at most six."""
+    """Pairings with a surface, smoothest first, at most six."""
     indices = [i for i, both in enumerate(results.study.pairings) if surface in both]
     return _some_by_roughness(results, np.array(indices, dtype=int))
 
 
 def smoothest_surface(results: Results) -> str:
-    """The surface with the smallest Rq."""
+    """Surface with the smallest Rq."""
     return min(results.study.surfaces.values(), key=lambda s: s.m0).name
 
 

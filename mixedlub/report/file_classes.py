@@ -1,4 +1,4 @@
-"""Classes of the files that commands read, imported when one is asked for."""
+"""Classes of the files read by commands, imported on demand."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _CLASSES = {
     "ehl": "mixedlub.ehl.file:EhlFile",
 }
 FILES = tuple(_CLASSES)
-"""Files other than cases, by the command that reads them."""
+"""Files other than cases, by command."""
 EVERY_CASE = ("", "uncertainty", "recording")
 """Tables of `system.toml` that do not depend on its kind."""
 

@@ -28,16 +28,16 @@ from profiles.errors import InputError, nearest
 WIDTH = 80
 """Columns of a terminal."""
 LEAST_MEANING_WIDTH = 22
-"""Columns that a meaning needs to the right of its key: about three words."""
+"""Smallest width of a meaning to the right of its key: about three words."""
 FRICTION_LAWS = "friction-laws"
 _GAP = "  "
 
 Row = tuple[str, ...]
-"""The cells of one line; the last one is the meaning."""
+"""Cells of a line; the last is the meaning."""
 
 
 def kinds_text(name: str | None = None) -> str:
-    """The format of one kind of case, of all of them, of a study file, or of a file of another command."""
+    """Format of a kind of case, of all kinds, of a study file, or of a file of another command."""
     if name in FILES:
         return "\n".join(_file("a study file" if name == STUDY else f"a file of `mixedlub {name}`", file_class(name)))
     if name == FRICTION_LAWS:
@@ -78,7 +78,7 @@ def _evaluation(name: str) -> Iterator[str]:
 
 
 def _friction_laws() -> Iterator[str]:
-    """Coefficients that laws have, by the table of a file for `--coefficients`."""
+    """Coefficients of laws, by the table of a file for `--coefficients`."""
     about = (
         "keys of a file for `mixedlub friction-laws --study STUDY.toml --coefficients FILE.toml`: a table a law, whose "
         "keys a study takes in `friction_coefficients` as well"
@@ -93,7 +93,7 @@ def _friction_laws() -> Iterator[str]:
 
 
 def about(kind_name: str) -> str:
-    """What a kind of case records, in one line.
+    """Line on the recorded quantity of a kind of case.
 
     >>> about("viscosity")
     'viscosity: viscosity of a sample against temperature and pressure'
@@ -126,7 +126,7 @@ def column_rows(columns: Sequence[Column]) -> list[Row]:
 
 
 def _named(sections: Sequence[str]) -> str:
-    """Table names as they are written in the file.
+    """Table names as written in the file.
 
     >>> _named(["contact", "surfaces"])
     '[contact] [surfaces.NAME]'
@@ -155,7 +155,7 @@ def _bounds(c: Column) -> str:
 
 
 def _span(low: float, high: float, number: str = "number") -> str:
-    """Words for a range of numbers.
+    """A range of numbers as text.
 
     >>> _span(0.0, 1.0), _span(0.0, np.inf), _span(-np.inf, np.inf)
     ('0 to 1', 'from 0', 'number')
@@ -173,7 +173,7 @@ def _title(table: FileTable) -> Iterator[str]:
 
 
 def _users(table: FileTable) -> Iterator[str]:
-    """Which kinds need a table and which use it."""
+    """Kinds that need or use a table, as text."""
     needed = [n for n in KINDS if table.name in kind(n).sections]
     used = [n for n in KINDS if table.name in kind(n).uses]
     for word, names in (("needed by", needed), ("used where given by", used)):
@@ -182,7 +182,7 @@ def _users(table: FileTable) -> Iterator[str]:
 
 
 def _keys(table: FileTable) -> Iterator[str]:
-    """The keys of a table, and the meaning of each allowed value where there are few."""
+    """Keys of a table, and the meaning of each allowed value if there are few."""
     for key, lines in zip(table.keys, _blocks([key_row(key) for key in table.keys], 2), strict=True):
         yield from lines
         yield from aligned([(toml_value(value), meaning) for value, meaning in key.values.items()], indent=6)
@@ -197,7 +197,7 @@ def key_row(key: Key) -> Row:
 
 
 def _allowed(annotation: Any, key: Key) -> tuple[str, bool]:
-    """The allowed values of a key, and whether they are numbers."""
+    """Allowed values of a key, and whether they are numbers."""
     of = plain(annotation)
     entries = get_args(of)
     if get_origin(of) is tuple:
@@ -214,7 +214,7 @@ def _allowed(annotation: Any, key: Key) -> tuple[str, bool]:
 
 
 def _default(value: Any) -> str:
-    """The default of a key, as TOML in the fewest digits.
+    """Default of a key as TOML in the fewest digits.
 
     >>> _default((206.0, 0.05)), _default(None), _default(1.5)
     ('[206, 0.05]', '-', '1.5')
@@ -234,7 +234,7 @@ def aligned(rows: Sequence[Row], indent: int = 2) -> list[str]:
 
 
 def _blocks(rows: Sequence[Row], indent: int) -> Iterator[list[str]]:
-    """The lines of each row, in columns; the meaning is in the last one, or below where that one is too narrow."""
+    """Lines of each row, in columns; the meaning is in the last column, or below if that is too narrow."""
     widths = [max(map(len, cells)) for cells in zip(*rows, strict=True)][:-1]
     width_before = indent + sum(widths) + len(_GAP) * len(widths)
     below = WIDTH - width_before < LEAST_MEANING_WIDTH

@@ -1,4 +1,4 @@
-"""Friction laws side by side: along the path of contact, over the slide-to-roll ratio, and for the mesh."""
+"""Comparison of friction laws: along the path of contact, over the slide-to-roll ratio, and for the mesh."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ ROW_HEIGHT = 0.22
 def figures(
     comparison: Comparison, path: pd.DataFrame, ratio: pd.DataFrame, mesh: pd.DataFrame
 ) -> tuple[dict[str, Drawing], dict[str, str]]:
-    """The three figures of a comparison and their captions; of the mesh at its own condition."""
+    """The three figures of a comparison and their captions; the mesh is drawn at its condition."""
     at = _condition(comparison)
     grey = "Grey: outside the range of the source. Dotted: the base model. Friction that diverges is not drawn."
     drawn: dict[str, Drawing] = {
@@ -59,7 +59,7 @@ def _condition(comparison: Comparison) -> str:
 
 
 def _small_multiples(table: pd.DataFrame, place: str, label: str) -> Figure:
-    """A panel a law with equal axes: coloured where it holds, grey elsewhere, the base model dotted."""
+    """A panel per law with equal axes: coloured inside the range of the law, grey outside, the base model dotted."""
     names = list(dict.fromkeys(table["law"]))
     figure, axes, columns = panels(len(names), 4, height=1.45)
     base = table[table["law"] == BASE]
@@ -80,7 +80,7 @@ def _small_multiples(table: pd.DataFrame, place: str, label: str) -> Figure:
 
 
 def _top(table: pd.DataFrame) -> float:
-    """An upper end of the axis that a divergence does not set."""
+    """Upper end of the axis, unaffected by divergence."""
     whole = table[table["validity"] != DIVERGES]["friction"]
     return 1.1 * float(whole.groupby(table["law"]).quantile(0.9).max())
 
@@ -93,7 +93,7 @@ def _law(panel: Axes, rows: pd.DataFrame, place: str, colour: str) -> None:
 
 
 def _of_mesh(mesh: pd.DataFrame) -> Figure:
-    """A row a law, a mark a pairing; hollow where the law is outside its range."""
+    """A row per law, a mark per pairing; hollow outside the range of the law."""
     from matplotlib.figure import Figure as Canvas
 
     names = list(dict.fromkeys(mesh["law"]))

@@ -1,4 +1,4 @@
-"""The friction laws as text: a table of all of them, and the page of one."""
+"""The friction laws as text: a table of all, and pages."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from mixedlub.report.format_reference import aligned
 
 
 def friction_text(name: str | None = None) -> str:
-    """The page of one friction law, or a table of all of them in 80 columns."""
+    """Page of a friction law, or table of all friction laws in 80 columns."""
     if name is not None:
         return find(name).page()
     lines = [f"{len(catalogue())} friction laws. `mixedlub friction-laws NAME` shows the page of one, and"]

@@ -18,16 +18,16 @@ if TYPE_CHECKING:
     from mixedlub.gear.analysis import ToothContact
 
 MOST_LINES = 6
-"""Most torques that are drawn, spread evenly over those that were computed."""
+"""Largest number of torques drawn, spread evenly over the computed torques."""
 
 
 def _drawn(found: ToothContact, most: int) -> np.ndarray:
-    """Indices of the torques that are drawn."""
+    """Indices of the drawn torques."""
     return np.unique(np.linspace(0, found.torque.size - 1, min(most, found.torque.size)).round().astype(int))
 
 
 def gear_figures(title: str, found: ToothContact, tables: Mapping[str, pd.DataFrame]) -> dict[str, Drawing]:
-    """Every figure by the name of its file."""
+    """All figures by file name."""
     return {
         "load_distribution": _distribution(found, tables.get("transmission_error")),
         "contact_pattern": partial(pattern_figure, title, found),
@@ -36,7 +36,7 @@ def gear_figures(title: str, found: ToothContact, tables: Mapping[str, pd.DataFr
 
 
 def _distribution(found: ToothContact, transmission: pd.DataFrame | None) -> tuple[Panel, ...]:
-    """Load share of a tooth pair and load over the face; of elastic teeth also transmission error and stiffness."""
+    """Load share of a tooth pair and load over the face; for elastic teeth also transmission error and stiffness."""
     chosen = _drawn(found, MOST_LINES)
     edges = np.linspace(0, found.pair.face_width * 1e3, found.face.size + 1).repeat(2)[1:-1]
     share, face = (
@@ -67,7 +67,7 @@ def _distribution(found: ToothContact, transmission: pd.DataFrame | None) -> tup
 
 
 def _loss_factors(factors: pd.DataFrame) -> tuple[Panel, ...]:
-    """Loss factor of the local load over torque, and the closed ones that hold."""
+    """Loss factor of the local load over torque, and the valid closed-form loss factors."""
     local = factors[factors["torque_Nm"].notna()]
     closed = factors[factors["torque_Nm"].isna() & ~factors["outside_range"].astype(bool)]
     reach = local["torque_Nm"].to_numpy()[[0, -1]]
@@ -80,7 +80,7 @@ def _loss_factors(factors: pd.DataFrame) -> tuple[Panel, ...]:
 
 
 def pattern_figure(title: str, found: ToothContact) -> Figure:
-    """Hertz pressure over the flank, a panel a torque: where a tooth pair touches on its way through the mesh."""
+    """Hertz pressure over the flank, a panel per torque: contact pattern of a tooth pair in the mesh."""
     from matplotlib.figure import Figure
 
     chosen = _drawn(found, 4)

@@ -1,6 +1,6 @@
-"""The interactive chart on the page of a study: drawn by Vega-Lite in the browser, described here with Vega-Altair.
+"""Interactive chart on the page of a study: drawn by Vega-Lite in the browser, described here with Vega-Altair.
 
-The page carries the rows and the library, so that nothing is fetched. What the reader chooses are parameters of the
+The page contains the rows and the library, so that nothing is fetched. Choices of the reader are parameters of the
 specification; the library makes the lists, redraws, and saves the chart as a picture.
 """
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     import altair as alt
 
 PLACE = "chart"
-"""Identifier of the element of the page that takes the chart."""
+"""Identifier of the page element of the chart."""
 EMBEDDING: Mapping[str, Any] = {
     "mode": "vega-lite",
     "renderer": "svg",
@@ -34,22 +34,22 @@ EMBEDDING: Mapping[str, Any] = {
     "logLevel": 1,
     "scaleFactor": {"svg": 1, "png": 3},
 }
-"""Settings of the library: a drawing that scales, links that save it, and none that leads to another site."""
+"""Settings of the library: a scaling drawing, links to save it, and no links to other sites."""
 CONDITIONS = ("speed_rpm", "torque_Nm", "oil_temperature_C")
 ABSCISSAS = ("composite_roughness_um", "film_parameter", "boundary_area_ratio")
 """Columns that can be the abscissa instead of a condition, as in figures 8 to 10 of Hong, Aneshansley and Talbot."""
 FIRST = ("power_loss_W", "mean_friction", "film_parameter", "minimum_film_parameter", "boundary_area_ratio")
 """Quantities at the head of their list."""
 LEAST_AT_FIRST = ("oil_temperature_C",)
-"""Conditions that are held at their lowest level until the reader chooses another; the rest at the highest."""
+"""Conditions initially at their lowest level; all others are initially at the highest."""
 PAIRING, ALL = "pairing", "all"
 HEIGHT = 380
 MOST_NAMED = 80
-"""Most names in the legend; the lists of surfaces choose among more."""
+"""Largest number of names in the legend; the lists of surfaces offer more."""
 WIDEST_NAME, LETTER, BESIDE_NAME, COLUMN_GAP = 240, 6.8, 20, 14
 """Width of the longest name in the legend, of a letter in it, of the mark beside it, and between columns (pixels)."""
 FAINT = 0.08
-"""Opacity of pairings that are not chosen."""
+"""Opacity of unselected pairings."""
 GREY, INK = "#5b6770", "#1d2329"
 
 
@@ -64,7 +64,7 @@ class Explorer:
 
 
 def explorer(results: Results) -> Explorer:
-    """The interactive chart of a study with its rows; without its library, which is an extra, the rows alone."""
+    """Interactive chart of a study with its rows; without the optional library, the rows alone."""
     rows = chart_rows(results)
     flags = [(code, one.text) for code, one in zip(results.flags, out_of_range(results), strict=False)]
     try:
@@ -75,7 +75,7 @@ def explorer(results: Results) -> Explorer:
 
 @cache
 def library() -> str:
-    """The text of Vega-Lite; bundled once in a process, as that takes seconds."""
+    """Text of Vega-Lite; bundled once per process, as that takes seconds."""
     import altair as alt
     import vl_convert
 
@@ -84,7 +84,7 @@ def library() -> str:
 
 
 def specification(results: Results, rows: ChartRows) -> dict[str, Any]:
-    """The chart as Vega-Lite reads it."""
+    """The chart as a Vega-Lite specification."""
     import altair as alt
 
     one = _Chart.of(results, rows)
@@ -100,7 +100,7 @@ def specification(results: Results, rows: ChartRows) -> dict[str, Any]:
 
 @dataclass(frozen=True, eq=False)
 class _Chart:
-    """Names of the columns that the chart offers, and its parts."""
+    """Names of the columns offered in the chart, and its parts."""
 
     rows: ChartRows
     labels: Mapping[str, str]
@@ -130,7 +130,7 @@ class _Chart:
         )
 
     def parameters(self) -> Iterator[alt.Parameter]:
-        """What the reader chooses from lists, and the names that the expressions look up."""
+        """Parameters with lists of choices, and names used in expressions."""
         import altair as alt
 
         yield _choice("quantity", "quantity", {name: self.labels[name] for name in self.quantities})
@@ -185,7 +185,7 @@ class _Chart:
         )
 
     def layers(self) -> Iterator[alt.Chart]:
-        """Bands, lines, marks within and outside the range of the model, what the pointer finds, and texts."""
+        """Bands, lines, marks within and outside the range of the model, pointer selection, and texts."""
         import altair as alt
 
         picked = alt.selection_point(
@@ -246,7 +246,7 @@ class _Chart:
         return min(LETTER * int((first + second + len(" / ")).max()), WIDEST_NAME)
 
     def _numbers(self) -> str:
-        """What the pointer shows of the nearest mark: every number of its row, and where it is out of range."""
+        """Tooltip of the nearest mark: all numbers of its row, and the reason for being out of range."""
         row = "(datum.datum || datum)"  # the cell around a mark has the row of the mark in its own
         shown = {"title": f"{row}.pairing"}
         if self.bands:
@@ -257,7 +257,7 @@ class _Chart:
         return "{" + ", ".join(f"{json.dumps(name)}: {value}" for name, value in shown.items()) + "}"
 
     def _conditions(self) -> str:
-        """The conditions at which all marks are, as an expression that gives a text."""
+        """Conditions of all marks, as a text expression."""
         parts = []
         for name in CONDITIONS:
             unit = unit_of(name)
@@ -272,14 +272,14 @@ class _Chart:
 
 
 def _axis(length: str, apart: int) -> alt.Axis:
-    """An axis with ticks about so many pixels apart, at any size of the window."""
+    """An axis with ticks about ``apart`` pixels apart, at any size of the window."""
     import altair as alt
 
     return alt.Axis(title=None, tickCount=alt.ExprRef(f"max(2, {length} / {apart})"))
 
 
 def _held(condition: str) -> str:
-    """The parameter with the level at which a condition is held.
+    """Parameter with the fixed level of a condition.
 
     >>> _held("torque_Nm")
     'at_torque'
@@ -288,7 +288,7 @@ def _held(condition: str) -> str:
 
 
 def _choice(name: str, words: str, texts: Mapping[Any, str], first: Any = None) -> alt.Parameter:
-    """A parameter that the reader chooses from a list of values with their texts; at first the first one."""
+    """A parameter chosen from a list of values with their texts; initially the first."""
     import altair as alt
 
     values = list(texts)
@@ -298,7 +298,7 @@ def _choice(name: str, words: str, texts: Mapping[Any, str], first: Any = None) 
 
 
 def _of_both() -> str:
-    """Whether the surfaces chosen are those of a row, whichever wheel has them; one that is not chosen may be any."""
+    """Expression: whether a row has the chosen surfaces, on either wheel; a missing choice matches any surface."""
     ways = (SIDES, SIDES[::-1])
     return " || ".join(
         " && ".join(

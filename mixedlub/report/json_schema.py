@@ -1,4 +1,4 @@
-"""JSON Schema of the files, from the declarations of their keys; editors complete and check TOML with it."""
+"""JSON Schema of the files, from the declarations of their keys; for completion and checks of TOML in editors."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from profiles.errors import InputError, nearest
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 OWN = ("values", "unit", "alternative")
-"""Marks of the declarations that JSON Schema does not have."""
+"""Marks of the declarations without an equivalent in JSON Schema."""
 TYPES = {bool: "boolean", int: "integer", float: "number", str: "string", list: "array", tuple: "array", dict: "object"}
 
 
 def json_schema(name: str) -> dict[str, Any]:
-    """The schema of a kind of case, or of the file of a command or evaluation.
+    """Schema of a kind of case, or of the file of a command or evaluation.
 
     >>> sorted(json_schema("viscosity")["properties"])[:4]
     ['boundary_friction', 'calibration', 'description', 'effects']
@@ -44,7 +44,7 @@ def json_schema(name: str) -> dict[str, Any]:
 
 
 def _tables_of(name: str) -> set[str]:
-    """Tables of `system.toml` that a kind of case takes."""
+    """Tables of `system.toml` accepted by a kind of case."""
     one = kind(name)
     return {section.partition(".")[0] for section in (*EVERY_CASE, "effects", "conditions", *one.sections, *one.uses)}
 
@@ -58,7 +58,7 @@ def _sections(file: type[Section]) -> Iterator[type[Section]]:
 
 
 def _complete(schema: dict[str, Any], section: type[Section]) -> None:
-    """Give the properties of a table their units and ranges, and leave open what its validators take in addition."""
+    """Add units and ranges to the properties of a table, and leave open the additional input of its validators."""
     keys = FileTable(section, "", "").fields
     if any(key.is_alternative for key in keys):
         schema.pop("required", None)
@@ -87,7 +87,7 @@ def _property(found: dict[str, Any], key: Key) -> dict[str, Any]:
 
 
 def _used(schema: dict[str, Any], definitions: dict[str, Any]) -> dict[str, Any]:
-    """Definitions that a schema refers to, directly or by others."""
+    """Definitions referred to by a schema, directly or indirectly."""
     waiting, used = list(_references(schema)), set()
     while waiting:
         name = waiting.pop()

@@ -1,4 +1,4 @@
-"""Maps of how far laws of line contacts are from full solutions."""
+"""Maps of the errors of line-contact laws against full solutions."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 FILM_LAWS = ("dowson_toyoda_central", "dowson_higginson_minimum", "moes", "inlet_shear_heating (Gupta)")
 FRICTION_LAWS = ("base model, isothermal", "base model and film_heating", "crook", "xu_kahraman")
-"""Laws that have a map."""
+"""Laws with a map."""
 TITLES = {
     "dowson_toyoda_central": "Dowson and Toyoda, central film",
     "dowson_higginson_minimum": "Dowson and Higginson, minimum film",
@@ -38,7 +38,7 @@ TITLES = {
 }
 """Titles of panels."""
 NARROW, WIDE, TRACTION = (0.7, 1.0 / 0.7), (0.25, 4.0), (0.4, 2.5)
-"""Ratios at the ends of the colours of films, of friction, and of traction over that at the largest pressure."""
+"""Ratios at the ends of the colours of films, of friction, and of traction over traction at the largest pressure."""
 _TICKS = {
     NARROW: (0.7, 0.8, 0.9, 1.0, 1.1, 1.25, 1.4),
     WIDE: (0.25, 0.5, 0.7, 1.0, 1.4, 2.0, 4.0),
@@ -48,7 +48,7 @@ _TICKS = {
 
 
 def figures(laws: pd.DataFrame, fitted: pd.DataFrame) -> dict[str, Drawing]:
-    """Maps of laws of film and friction, and of the ratios that are fitted, over the conditions that they depend on."""
+    """Maps of film and friction laws, and of the fitted ratios, over their conditions."""
     regime = ("moes_load", "Moes' load parameter M (-)"), ("moes_material", "Moes' material parameter L (-)")
     sliding = ("hertz_pressure_GPa", "Hertz pressure (GPa)"), ("slide_roll_ratio", "slide-to-roll ratio (-)")
     titles = "solved film over that of its law (-)", "traction over that at\nlargest pressure (-)"
@@ -75,7 +75,7 @@ def _maps(
     ends: tuple[float, float],
     label: str,
 ) -> Figure:
-    """A panel a name: a mark a contact, its colour the ratio."""
+    """A panel per name: a mark per contact, coloured by the ratio."""
     (across, x_label), (up, y_label) = axes_of
     figure, axes, columns = panels(len(names), 2, height=2.4)
     for place, (panel, name) in enumerate(zip(axes, names, strict=True)):
@@ -95,7 +95,7 @@ def _maps(
 
 
 def _scale(panel: Axes, across: str, up: str) -> None:
-    """Logarithmic axes but for the material parameter and the pressure."""
+    """Set logarithmic axes except for the material parameter and the pressure."""
     if across == "moes_load":
         panel.set_xscale("log")
     if up == "slide_roll_ratio":
@@ -103,7 +103,7 @@ def _scale(panel: Axes, across: str, up: str) -> None:
 
 
 def law_lines(summary: pd.DataFrame, oil: str) -> list[str]:
-    """The table of laws in words: of one oil, or of all."""
+    """Table of laws as text, for an oil or for all."""
     lines = [f"{'law over full solution':<44}{'contacts':>9}{'median':>9}{'5 %':>8}{'95 %':>8}"]
     for row in summary[summary["oil"] == oil].to_dict("records"):
         numbers = [row[name] for name in ("median_ratio", "low_ratio_5_percent", "high_ratio_95_percent")]
@@ -113,7 +113,7 @@ def law_lines(summary: pd.DataFrame, oil: str) -> list[str]:
 
 
 def fit_lines(fits: pd.DataFrame, oil: str) -> list[str]:
-    """The table of factors and exponents in words, of one oil or of all."""
+    """Table of factors and exponents as text, for an oil or for all."""
     names = [name for name in fits if str(name).endswith("_exponent")]
     heads = "".join(f"{str(name).removesuffix('_exponent'):>16}" for name in names)
     lines = [f"{'full solution over base law':<30}{'rigs':>5}{'factor':>14}{heads}{'left':>8}"]

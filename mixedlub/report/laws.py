@@ -30,7 +30,7 @@ class LawText:
 
 
 def laws_used(model: Model) -> Iterator[LawText]:
-    """Every step of the chain that the results depend on, in order."""
+    """Steps of the chain on which the results depend, in order."""
     for step in model.steps:
         gives = ", ".join(name.replace("_", " ") for name in step.outputs)
         if step.effect is not None:
@@ -42,7 +42,7 @@ def laws_used(model: Model) -> Iterator[LawText]:
 
 
 def law_text(docstring: str, gives: str) -> LawText:
-    """The parts of a docstring; sentences that contain code are left out.
+    """Parts of a docstring; sentences that contain code are left out.
 
     >>> law_text("Height (m). ``z`` has two axes.\\n\\nSource: A. Author, 1999.", "height")
     LawText(gives='height', says='Height (m).', source='A. Author, 1999.', effect='')

@@ -42,7 +42,7 @@ from mixedlub.study.schema import Options, StudyFile
 
 MOST_SURFACES = 12
 MOST_GIVEN = 200_000
-"""Most characters of the study file on the page."""
+"""Largest number of characters of the study file on the page."""
 
 
 def write_page(
@@ -57,8 +57,8 @@ def write_page(
 ) -> list[Finding]:
     """Write ``index.html`` and ``figures/`` into a folder; return the findings on the heights of the traces.
 
-    ``given`` is the study file as text; ``as_in_paper`` adds files of the figures as the paper draws them; ``doing`` is
-    called with what is done next.
+    ``given``: study file as text. ``as_in_paper``: add files of the figures in the style of the paper. ``doing``:
+    called with the next step.
     """
     from jinja2 import Environment
 
@@ -90,21 +90,21 @@ def write_page(
 
 
 def _chart(results: Results) -> Any:
-    """The interactive chart; a process that is ended while it makes it prints no stack of foreign code."""
+    """Interactive chart; a process terminated meanwhile prints no foreign stack trace."""
     if multiprocessing.parent_process() is not None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
     return explorer(results)
 
 
 def _start(given: str) -> str:
-    """The study file, or as much of it as the page has room for."""
+    """Beginning of the study file, as far as the page has room."""
     if len(given) <= MOST_GIVEN:
         return given
     return f"{given[:MOST_GIVEN]}\n\n[The first {MOST_GIVEN} of {len(given)} characters; study.toml has all.]"
 
 
 def _saved(drawn: Drawn, folder: Path, formats: Sequence[str]) -> str:
-    """A figure as SVG, once its files are written."""
+    """A figure as SVG, after writing its files."""
     svg = as_svg(drawn.figure)
     for form in formats:
         path = folder / f"{drawn.name}.{form}"
@@ -113,7 +113,7 @@ def _saved(drawn: Drawn, folder: Path, formats: Sequence[str]) -> str:
 
 
 def content(results: Results) -> dict[str, Any]:
-    """The content of the page that follows from the results alone."""
+    """Content of the page that depends only on the results."""
     study = results.study
     file = study.file
     return {
@@ -186,7 +186,7 @@ def findings(results: Results) -> list[str]:
 
 
 def _shared(results: Results) -> str:
-    """How film and asperities share the load; empty where the film formula sets the gap."""
+    """Sentence on the load sharing of film and asperities; empty if the film formula sets the gap."""
     if not results.study.plan.balanced:
         return ""
     share, thicker = results["mean_asperity_load_share"], results["film_over_unbalanced"]
@@ -197,7 +197,7 @@ def _shared(results: Results) -> str:
 
 
 def _linear(results: Results, where: Callable[[int], str]) -> str:
-    """How well a straight line over composite roughness fits; empty where it would fit any pairings."""
+    """Sentence on the fit of the line over composite roughness; empty if any pairings would fit."""
     fits = over_roughness(results).square
     if len(results.study.pairings) < FEWEST_PAIRINGS or not np.isfinite(fits).all():
         return ""
@@ -209,7 +209,7 @@ def _linear(results: Results, where: Callable[[int], str]) -> str:
 
 
 def _left_above_one(results: Results) -> str:
-    """What of the loss between roughest and smoothest pairing is left above a film parameter of 1, by speed."""
+    """Sentence on the share of the loss difference between pairings remaining above film parameter 1, by speed."""
     loss = np.where(results["film_parameter"] >= 1.0, results["power_loss"], -np.inf).max(axis=0)
     least, most = (edge(results["power_loss"], axis=0) for edge in (np.min, np.max))
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -228,7 +228,7 @@ def _left_above_one(results: Results) -> str:
 
 
 def _triangle(results: Results, values: np.ndarray, form: str) -> dict[str, Any] | None:
-    """Values of the pairings as a table of pinion against gear surface; none where it would be too wide."""
+    """Values of the pairings as a table of pinion against gear surface; None if too wide."""
     pinions = list(dict.fromkeys(a for a, _ in results.study.pairings))
     gears = list(dict.fromkeys(b for _, b in results.study.pairings))
     if max(len(pinions), len(gears)) > MOST_SURFACES:
@@ -258,7 +258,7 @@ def oil_rows(results: Results) -> list[tuple[str, str, str, str]]:
 
 
 def input_rows(study: Study, section: str) -> list[tuple[str, str, str, str]]:
-    """Every key of a section as it was used: name, value with unit, 'assumed' for a default, meaning."""
+    """Keys of a section as used: name, value with unit, 'assumed' for a default, meaning."""
     used, taken = resolved(study)["inputs"][section], set(assumed(study))
     return [
         (
@@ -272,7 +272,7 @@ def input_rows(study: Study, section: str) -> list[tuple[str, str, str, str]]:
 
 
 def _keys(place: str, used: Mapping[str, Any]) -> Iterator[tuple[str, Any, Key]]:
-    """Dotted name, value and description of each key that has a value."""
+    """Dotted name, value and description of each key with a value."""
     for key in table(StudyFile, place).fields:
         if key.name not in used:
             continue
@@ -304,7 +304,7 @@ def geometry_rows(study: Study) -> list[tuple[str, str]]:
 
 
 def option_rows(options: Options, unread: Collection[str] = ()) -> list[tuple[str, str, str, bool]]:
-    """Option, choice, its meaning, whether it is the default; without those that the law of friction leaves unread."""
+    """Option, choice, meaning, whether default; without the options ignored by the friction law."""
     standard = Options()
     rows = []
     for key in FileTable(Options, "", "options").fields:

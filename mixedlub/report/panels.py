@@ -1,4 +1,4 @@
-"""Figures of results, from the panels that these describe."""
+"""Figures of results from panel descriptions."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 
 
 SHORT = 14
-"""Characters of names that fit six to a row of a legend."""
+"""Longest name with which six fit in a row of a legend (characters)."""
 
 
 def panel_figure(title: str, drawn: tuple[Panel, ...]) -> Figure:
-    """The figure of panels, two side by side."""
+    """Figure of panels, two side by side."""
     figure, axes, _ = panels(len(drawn), 2, height=3.0, sharex=False, sharey=False)
     colours = shades(1 + max(curve.group for panel in drawn for curve in panel.curves))[::-1]
     for axis, panel in zip(axes, drawn, strict=True):

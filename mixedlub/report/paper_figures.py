@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 WIDTH = 3.46
-"""Width of a column of a journal (inches), 88 mm."""
+"""Width of a journal column (inches), 88 mm."""
 TEXT = 7.0
 SIZES: dict[Any, Any] = {
     "font.size": TEXT,
@@ -45,12 +45,12 @@ SIZES: dict[Any, Any] = {
 }
 """Settings of text and lines at that width; journals ask for 6 points or more."""
 SHAPES = "^sD"
-"""Marks of the torques, where panels do not tell them apart."""
+"""Marks of the torques, if not separated by panels."""
 LOSS = "normalised power loss (-)"
 RATIO = "boundary area ratio (-)"
 HOLLOW = f" Hollow: {OUTSIDE}."
 SIDE_BY_SIDE, LONGEST_LINE = 13, 16
-"""Letters of two names, and of a line, that fit above a panel of a third of the width."""
+"""Numbers of letters, of two names and of a line, that fit above a panel of a third of the width."""
 
 
 def paper_figures(results: Results) -> Iterator[Drawn]:

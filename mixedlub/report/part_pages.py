@@ -1,4 +1,4 @@
-"""The laws of machine parts as text: a table of all of them, and the page of one."""
+"""Laws of machine parts as text: a table of all, and pages."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from profiles.errors import InputError, nearest
 
 
 def parts_text(name: str | None = None) -> str:
-    """The page of the laws of one name, or a table of all laws in 80 columns."""
+    """Page of the laws with a name, or table of all laws in 80 columns."""
     if name is not None:
         found = [law for law in catalogue().values() if law.name == name]
         if not found:

@@ -1,4 +1,4 @@
-"""The plots of a study, after those of Hong, Aneshansley and Talbot, as functions of its results."""
+"""Plots of a study, after Hong, Aneshansley and Talbot, as functions of its results."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ MOST_TORQUES = 3
 MOST_PAIRINGS = 120
 LONGEST = 22
 SIDE_BY_SIDE = 24
-"""Characters of two names that fit above a panel of a third of the width."""
+"""Number of characters of two names that fit above a panel of a third of the width."""
 MOST_MARKED = 25
-"""Most levels along an axis that have a marker each."""
+"""Largest number of levels along an axis with a marker each."""
 WIDE = 100.0
 """Largest over smallest value from which an axis is logarithmic: a linear one would hide the small values."""
 LEAST_RATIO = 1e-4
 """Boundary area ratio below which asperity friction is negligible: the end of a logarithmic axis."""
 SCALE_RATIO = 4.0
-"""Largest loss of one panel over that of another from which each panel has its own scale."""
+"""Ratio of the largest losses of two panels above which each panel has a separate scale."""
 
 AXIS = {
     "composite_roughness": ("composite roughness Rq (µm)", 1e6),
@@ -40,7 +40,7 @@ AXIS = {
 }
 """Label of each quantity, and the factor from SI to its unit."""
 OUTSIDE = "outside the model's range"
-"""Meaning of a hollow mark in every figure of a study; shapes tell torques where one panel has several, and no more."""
+"""Meaning of a hollow mark in every figure of a study; shapes only distinguish torques within a panel."""
 
 
 def some(count: int, most: int) -> np.ndarray:
@@ -62,7 +62,7 @@ def spread(levels: Sequence[float], most: int) -> np.ndarray:
 
 
 def shown(levels: Sequence[float]) -> list[str]:
-    """Levels with four digits, or more where two of them would be printed the same.
+    """Levels with four digits, or more if two levels would look equal.
 
     >>> shown([68.7342, 2987.12, 12000]), shown([0.98711, 0.98714])
     (['68.73', '2987', '12000'], ['0.98711', '0.98714'])
@@ -75,7 +75,7 @@ def shown(levels: Sequence[float]) -> list[str]:
 
 
 def paired_title(results: Results, pairing: int, more: str = "", fit: int = SIDE_BY_SIDE) -> str:
-    """Title of a pairing; one line per surface where more letters than ``fit`` would be in one."""
+    """Title of a pairing; a line per surface if a single line would exceed ``fit`` letters."""
     pinion, gear = (s if len(s) <= LONGEST else f"{s[: LONGEST - 1]}…" for s in results.study.pairings[pairing])
     between = " /\n" if len(pinion) + len(gear) > fit else " / "
     names = between.join(s.replace("$", r"\$") for s in (pinion, gear))
@@ -102,14 +102,14 @@ def mark(shape: str, colour: Any, face: Any = None) -> Any:
 def with_hollow(
     handles: Sequence[Any], names: Sequence[str], outside: np.ndarray
 ) -> tuple[Sequence[Any], Sequence[str]]:
-    """Entries of a legend, and that of hollow marks where any is drawn."""
+    """Legend entries, including hollow marks if any are drawn."""
     if not outside.any():
         return handles, names
     return [*handles, mark("o", "0.35", "white")], [*names, OUTSIDE]
 
 
 def _curve(panel: Axes, x: np.ndarray, y: np.ndarray, outside: np.ndarray, colour: Any, label: str) -> None:
-    """A line with marks, hollow where a condition is outside the model's range; of many conditions some are marked."""
+    """A line with marks, hollow outside the model's range; of many conditions some are marked."""
     panel.plot(x, y, color=colour, marker="o", markevery=np.flatnonzero(~outside & _marked(x.size)), label=label)
     hollow = outside & _marked(x.size)
     if hollow.any():
@@ -119,7 +119,7 @@ def _curve(panel: Axes, x: np.ndarray, y: np.ndarray, outside: np.ndarray, colou
 def _shade(
     panel: Axes, results: Results, quantity: str, x: np.ndarray, at: Callable[[np.ndarray], np.ndarray], colour: Any
 ) -> None:
-    """The band of a curve, where the study has one; ``at`` takes the values of the curve out of an output."""
+    """Draw the band of a curve, if the study has bands; ``at`` extracts the curve from an output."""
     if has_bands(results):
         factor = COLUMNS[quantity].factor if quantity == "film_thickness" else 1.0
         low, high = (factor * at(results[end + quantity]) for end in (LOW, HIGH))
@@ -258,7 +258,7 @@ def loss_over(results: Results, quantity: str, theta: int, *, fitted: bool = Fal
 
 
 def has_own_scales(results: Results, theta: int) -> bool:
-    """Whether losses at the torques drawn differ so much that one scale would leave a panel empty."""
+    """Whether losses at the drawn torques differ so much that a common scale would leave a panel empty."""
     torques = spread(results.study.file.conditions.torque_Nm, MOST_TORQUES)
     most = results["power_loss"][:, theta, torques].max(axis=(0, 2))
     return bool(most.max() > SCALE_RATIO * most.min())
@@ -275,7 +275,7 @@ def _line(panel: Axes, x: np.ndarray, y: np.ndarray, colour: Any) -> str:
 
 
 def _some_points(x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """The points that are drawn: of very many a selection that includes the extremes."""
+    """Drawn points: of very many a selection that includes the extremes."""
     return np.unique([*np.argsort(x)[some(x.size, MOST_PAIRINGS)], y.argmin(), y.argmax()])
 
 
@@ -314,6 +314,6 @@ def film_and_friction(results: Results, theta: int) -> Figure:
 
 
 def one_film(results: Results) -> bool:
-    """Whether the film is the same for all pairings; some effects make it depend on the surfaces."""
+    """Whether the film is the same for all pairings; with some effects it depends on the surfaces."""
     film = results["film_thickness"]
     return bool(np.allclose(film, film[:1], rtol=1e-9, atol=0.0))

@@ -61,7 +61,7 @@ def shades(count: int) -> np.ndarray:
 def panels(
     count: int, columns: int, *, height: float = 2.2, sharex: bool = True, sharey: bool = True
 ) -> tuple[Figure, list[Axes], int]:
-    """A figure of equal panels with, where shared, common axes; and the number of columns."""
+    """A figure of equal panels, with common axes if shared; and the number of columns."""
     from matplotlib.figure import Figure
 
     columns = 2 if count == 4 else min(columns, count)
@@ -78,7 +78,7 @@ def panels(
 def legend_above(
     figure: Figure, entries: Axes | tuple[Sequence[Any], Sequence[str]], title: str, columns: int = 6
 ) -> None:
-    """A legend above the panels, over the whole width, in as many rows as it needs."""
+    """Draw a legend above the panels over the whole width, with as many rows as needed."""
     handles, labels = entries if isinstance(entries, tuple) else entries.get_legend_handles_labels()
     figure.legend(
         handles,
@@ -119,7 +119,7 @@ def labelled(name: str) -> str:
 
 
 FONTS = "'DejaVu Sans', Verdana, 'Bitstream Vera Sans', sans-serif"
-"""Fonts of equal width, so that text still fits where the first one is missing."""
+"""Fonts of equal width, so that text still fits if the first is missing."""
 
 
 def as_svg(figure: Figure) -> str:
@@ -134,7 +134,7 @@ def as_svg(figure: Figure) -> str:
 OWNER = "mixedlub"
 """Creator in the metadata of a figure."""
 PNG_DPI = 300
-"""Least resolution (dots per inch) that journals require for line art in colour."""
+"""Smallest resolution (dots per inch) required by journals for line art in colour."""
 _MADE_BY = {"pdf": {"Creator": OWNER, "CreationDate": None}, "png": {"Software": OWNER}}
 
 

@@ -1,4 +1,4 @@
-"""The surfaces on the page: spectral moments and asperities, and the traces where there are any."""
+"""The surfaces on the page: spectral moments and asperities, and traces."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ MOST_CURVES = 8
 EXCERPT = 1.5e-3
 """Length of trace drawn (m): single asperities remain visible."""
 SCALE_RATIO = 5.0
-"""Highest over lowest trace from which each has its own scale: a common one would flatten the lowest."""
+"""Highest over lowest trace above which each has a separate scale: a common scale would flatten the lowest."""
 
 
 def surface_rows(study: Study) -> list[tuple[str, ...]]:
@@ -48,12 +48,12 @@ def surface_rows(study: Study) -> list[tuple[str, ...]]:
 
 
 def _along(surfaces: Sequence[Surface]) -> tuple[list[float], list[float]]:
-    """m2 and m4 along the lay of surfaces that have one, else in the one direction that is known."""
+    """m2 and m4 along the lay, or in the only known direction of surfaces without a lay."""
     return [s.m2_along or s.m2 for s in surfaces], [s.m4_along or s.m4 for s in surfaces]
 
 
 def traced(study: Study) -> dict[str, Profile]:
-    """The filtered profiles of the surfaces given as traces, at most as many as one figure holds."""
+    """Filtered profiles of the surfaces given as traces, at most as many as a figure holds."""
     named = [name for name in study.surfaces if study.file.surfaces[name].files][:MOST_CURVES]
     with collected():
         profiles = {name: study.rig.profile(name) for name in named}
@@ -95,9 +95,9 @@ def judgement(profiles: Mapping[str, Profile]) -> Judged:
 
 
 def height_notes(profiles: Mapping[str, Profile], judged: Judged, gaussian: bool = True) -> list[Finding]:
-    """The warnings of `mixedlub profile` on the roughness parameters of each trace.
+    """Warnings of `mixedlub profile` on the roughness parameters of each trace.
 
-    Those on its height distribution are among them where ``gaussian`` heights are assumed.
+    With ``gaussian`` heights, including warnings on the height distribution.
     """
     from roughness import height_parameters, moments
     from roughness.guards import height_warnings, shape_warnings
@@ -111,7 +111,7 @@ def height_notes(profiles: Mapping[str, Profile], judged: Judged, gaussian: bool
 
 
 def not_gaussian(judged: Judged) -> list[Finding]:
-    """Surfaces whose heights are not Gaussian, although the asperity theory assumes it."""
+    """Findings on surfaces with non-Gaussian heights, as the asperity theory assumes Gaussian heights."""
     odd = [
         f"{name} ({result.verdict.replace('_', ' ')})"
         for name, result in judged.items()
@@ -124,13 +124,13 @@ def not_gaussian(judged: Judged) -> list[Finding]:
 
 
 def provenance(study: Study) -> list[tuple[str, str]]:
-    """The source of each surface: moments as given, or a trace with its processing steps."""
+    """Source of each surface: moments as given, or a trace with its processing steps."""
     sections = study.file.surfaces
     return [(name, _origin(sections[name], s.steps)) for name, s in list(study.surfaces.items())[: 4 * MOST_CURVES]]
 
 
 def _origin(section: SurfaceSection, steps: Sequence[str]) -> str:
-    """Files of a surface, and what was done to the first."""
+    """Files of a surface, and the processing steps of the first."""
     if section.map is not None:
         return f"map {section.map}"
     if not section.files:

@@ -1,1 +1,1 @@
-"""Needs of every run: results that appear whole, their origin, processors and clusters, the version."""
+"""Support of runs: complete results, their origin, processors and clusters, version."""

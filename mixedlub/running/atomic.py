@@ -1,4 +1,4 @@
-"""Results that appear whole or not at all: written aside, then renamed into place."""
+"""Results written to a temporary name and renamed, so that they appear completely or not at all."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from pathlib import Path
 
 @contextmanager
 def writing(folder: Path) -> Iterator[Path]:
-    """A folder beside the results to write into; its entries replace theirs when all are written.
+    """A folder beside the results for writing; its entries replace the results when all are written.
 
-    A folder gives way to its successor, but for files in it that no earlier run wrote: those stay.
+    A folder is replaced, but files in it that no earlier run wrote are kept.
     """
     for stale in folder.glob(".writing-*"):
         if not is_alive(stale.name.rpartition("-")[2]):
@@ -36,7 +36,7 @@ def writing(folder: Path) -> Iterator[Path]:
 
 
 def fill(contents: Mapping[str, str | bytes], folder: Path) -> None:
-    """Write files into a folder, by their path in it."""
+    """Write files into a folder, by relative path."""
     for name, content in contents.items():
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -45,7 +45,7 @@ def fill(contents: Mapping[str, str | bytes], folder: Path) -> None:
 
 @contextmanager
 def whole(path: Path) -> Iterator[Path]:
-    """A name next to a file to write it to, which becomes the file when it is complete."""
+    """Temporary name next to a file; renamed to the file on completion."""
     aside = path.with_suffix(f".{os.getpid()}")
     try:
         yield aside
@@ -55,7 +55,7 @@ def whole(path: Path) -> Iterator[Path]:
 
 
 PARTS = ".parts-"
-"""Name, but for its end, of the folder next to a result that keeps what an interrupted run has done."""
+"""Prefix of the folder next to a result with the parts of an interrupted run."""
 
 
 def clear_parts(out: Path) -> None:
@@ -69,15 +69,15 @@ OWN = {
     ".png": b"Software\x00mixedlub",
     ".pdf": b"/Creator (mixedlub)",
 }
-"""What a drawing of each format says that was made here."""
+"""Mark of a drawing made by mixedlub, by format."""
 EDITED = (b"inkscape", b"sodipodi")
-"""What a drawing says that was worked over since."""
+"""Marks of a drawing edited afterwards."""
 ENDS = 4096
-"""Bytes at either end of a drawing among which it says so."""
+"""Bytes at either end of a drawing that are searched for marks."""
 
 
 def is_own(path: Path) -> bool:
-    """Whether a file is a drawing as an earlier run made it."""
+    """Whether a file is an unedited drawing of an earlier run."""
     if path.suffix not in OWN or not path.is_file():
         return False
     with path.open("rb") as file:
@@ -88,7 +88,7 @@ def is_own(path: Path) -> bool:
 
 
 def _take_along(before: Path, after: Path) -> None:
-    """Copy what is not of an earlier run into the folder that takes the place."""
+    """Copy files not written by an earlier run into the new folder."""
     for path in before.iterdir():
         kept = after / path.name
         if kept.exists() or is_own(path):
@@ -100,7 +100,7 @@ def _take_along(before: Path, after: Path) -> None:
 
 
 def is_alive(process: str) -> bool:
-    """Whether a process of this number runs on this machine."""
+    """Whether a process with this number runs on this machine."""
     if not process.isdigit():
         return False
     if sys.platform == "win32":

@@ -57,7 +57,7 @@ def on_cluster(
 
 
 def _check_scheduler(address: str) -> None:
-    """Refuse an address where no Dask scheduler answers, without waiting for the retries of a client."""
+    """Raise an error if no Dask scheduler answers at an address, without waiting for the retries of a client."""
     from distributed.core import rpc
 
     async def identity() -> dict[str, Any]:
@@ -76,7 +76,7 @@ def _check_scheduler(address: str) -> None:
 
 
 def _check_host(address: str) -> None:
-    """Refuse an address where nothing accepts a connection, before Dask is loaded."""
+    """Raise an error if no host accepts a connection at an address, before Dask is loaded."""
     try:
         parts = urlsplit(address if "://" in address else f"tcp://{address}")
         if parts.scheme == "inproc":

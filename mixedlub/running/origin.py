@@ -1,4 +1,4 @@
-"""Whose result a folder holds: a record beside it, by which a run replaces its own result and no other."""
+"""Origin of a result: a record in its folder, by which a run replaces only results of the same input."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ from profiles.errors import InputError
 SCHEMA = "mixedlub-origin/1"
 NAME = "origin.json"
 FIGURES = "figures"
-"""Folder of drawings, which say themselves that they were made here (`mixedlub.running.atomic`)."""
+"""Folder of drawings, which contain a mark of origin (`mixedlub.running.atomic`)."""
 ENDS = 1 << 20
 """Bytes at either end of a file that identify it, so that a large table need not be read completely."""
 
 
 @dataclass(frozen=True)
 class Origin:
-    """The input of a run: where it lies and a hash of its content."""
+    """Input of a run: location and content hash."""
 
     source: Path
     fingerprint: str
 
     def write_record(self, aside: Path, folder: Path, earlier: Mapping[str, str] | None = None) -> None:
-        """Write `origin.json` beside the files of a result for ``folder``; ``earlier`` has marks of those that stay."""
+        """Write `origin.json` for ``folder`` into ``aside``; ``earlier``: marks of files that remain."""
         new = (path for path in aside.rglob("*") if path.is_file())
         names = (path.relative_to(aside).as_posix() for path in new)
         marks = {name: _mark(aside / name) for name in names if not name.startswith(f"{FIGURES}/")}
@@ -39,9 +39,9 @@ class Origin:
         (aside / NAME).write_text(text, encoding="utf-8", newline="\n")
 
     def check_folder(self, folder: Path, names: Collection[str], what: str) -> str:
-        """Refuse a folder with files of other origin; returns a note where they are of an earlier state of this input.
+        """Raise an error for a folder with files of another origin; return a note for an earlier state of this input.
 
-        ``names`` are the files that a result has, ``what`` is the kind of input in words.
+        ``names``: files of a result. ``what``: kind of input as text.
         """
         found = _read(folder)
         marks = found.get("files", {})
@@ -74,7 +74,7 @@ class Origin:
 
 
 def origin_of(source: Path, names: Collection[str], *choices: object) -> Origin:
-    """The origin of a folder of inputs, by the content of its named files and what was chosen."""
+    """Origin of a folder of inputs, from the content of named files and the choices of the user."""
     digest = hashlib.sha256(repr(choices).encode() if choices else b"")
     for name in names:
         path = source / name
@@ -84,14 +84,14 @@ def origin_of(source: Path, names: Collection[str], *choices: object) -> Origin:
 
 
 def origin_of_file(source: Path, *choices: object) -> Origin:
-    """The origin of one input: a file, or the name of an input that the package has, and what was chosen."""
+    """Origin of an input, a file or the name of shipped data, with the choices of the user."""
     content = source.read_bytes() if source.is_file() else b""
     return Origin(source, hashlib.sha256(content + repr(choices).encode()).hexdigest())
 
 
 @cache
 def code_fingerprint() -> str:
-    """A hash of every line of code that results depend on."""
+    """Hash of all code that affects results."""
     import numpy as np
 
     import roughness
@@ -104,17 +104,17 @@ def code_fingerprint() -> str:
 
 
 def as_left(folder: Path) -> dict[str, str]:
-    """The marks of files in a folder that are as a run left them."""
+    """Marks of files in a folder unchanged since a run."""
     return {name: mark for name, mark in _read(folder).get("files", {}).items() if _mark(folder / name) == mark}
 
 
 def is_same(path: Path, other: Path) -> bool:
-    """Whether two paths lead to one file that exists."""
+    """Whether two paths lead to the same existing file."""
     return path.exists() and other.exists() and path.samefile(other)
 
 
 def _read(folder: Path) -> dict[str, Any]:
-    """The record in a folder; empty where no run wrote one."""
+    """Record in a folder; empty if no run wrote it."""
     try:
         found = json.loads((folder / NAME).read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -123,7 +123,7 @@ def _read(folder: Path) -> dict[str, Any]:
 
 
 def _mark(path: Path) -> str:
-    """Identity of a file: its size and its two ends; empty where there is none."""
+    """Identity of a file: size and both ends; empty if the file is missing."""
     try:
         with path.open("rb") as file:
             size = file.seek(0, os.SEEK_END)

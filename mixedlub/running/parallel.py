@@ -14,13 +14,13 @@ Result = TypeVar("Result")
 
 _work: tuple[Callable[[Any], Any], Sequence[Any]] | None = None
 _WORKER = "MIXEDLUB_WORKER"
-"""Variable of the environment that marks a process as one of several."""
+"""Environment variable that marks a worker process."""
 
 
 def shared_out(function: Callable[[Item], Result], items: Sequence[Item]) -> list[Result]:
-    """``[function(item) for item in items]`` over the processors; in turn with one, and within one of its processes.
+    """``[function(item) for item in items]`` over the processors; serial on a single processor and within a worker.
 
-    Linux forks processes, which have all memory of this one; elsewhere they start anew and are sent function and items.
+    Linux forks processes, which share all memory; elsewhere new processes receive function and items.
 
     >>> shared_out(lambda item: item**2, [1, 2, 3])
     [1, 4, 9]
@@ -30,7 +30,7 @@ def shared_out(function: Callable[[Item], Result], items: Sequence[Item]) -> lis
 
 
 def as_done(function: Callable[[Item], Result], items: Sequence[Item]) -> Iterator[tuple[int, Result]]:
-    """Places and results of ``function(item)``, each as soon as it is computed; shared as by `shared_out`.
+    """Indices and results of ``function(item)`` in order of completion; distributed as by `shared_out`.
 
     >>> sorted(as_done(lambda item: item**2, [1, 2, 3]))
     [(0, 1), (1, 4), (2, 9)]
@@ -59,7 +59,7 @@ def as_done(function: Callable[[Item], Result], items: Sequence[Item]) -> Iterat
 
 
 def processors() -> int:
-    """Number of processors that this process may use."""
+    """Number of processors available to this process."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 

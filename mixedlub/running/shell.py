@@ -1,4 +1,4 @@
-"""Words of a command line as the shell of this system takes them."""
+"""Quoting of command lines for the shell of this system."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import sys
 
 
 def quoted(word: str) -> str:
-    """A word as one argument: in single quotes where the shell is POSIX, in double quotes on Windows.
+    """A word as one argument: in single quotes for POSIX shells, in double quotes on Windows.
 
     >>> quoted("columns.load_N=Force (N)")
     "'columns.load_N=Force (N)'"

@@ -1,10 +1,10 @@
-"""Which mixedlub this is."""
+"""Version of mixedlub."""
 
 from __future__ import annotations
 
 
 def installed_version() -> str:
-    """The version of the installed package; "from source" where it runs uninstalled."""
+    """Version of the installed package, or "from source"."""
     from importlib.metadata import PackageNotFoundError, version
 
     try:

@@ -1,1 +1,1 @@
-"""Full solutions of line contacts: how far published laws are from them, and their friction as a law for one oil."""
+"""Full solutions of line contacts: errors of published laws, and friction laws for single oils."""

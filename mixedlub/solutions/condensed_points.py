@@ -1,4 +1,4 @@
-"""Contacts over which friction is condensed, and the solutions of them as a table."""
+"""Contacts for the regression of friction, and their solutions as a table."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ RANGES = {
     "oil_temperature": (40.0 + ZERO_CELSIUS, 110.0 + ZERO_CELSIUS),
     "radius": (3e-3, 30e-3),
 }
-"""Contacts of gears, in SI."""
+"""Ranges of gear contacts, in SI."""
 _ENOUGH = 20
-"""Cost limit. Contacts that are looked at for each one that is inside the range."""
+"""Cost limit. Contacts tried per contact inside the ranges."""
 
 
 def draw(oil: Oil, count: int, seed: int) -> Contacts:
-    """Contacts spread evenly over the ranges, both ways of sliding, where M and L of Moes are those of gears.
+    """Contacts spread evenly over the ranges, with both signs of sliding, restricted to Moes' M and L of gears.
 
     >>> from mixedlub.ehl import example_oil
     >>> found = draw(example_oil(), 8, seed=1)
@@ -57,7 +57,7 @@ def draw(oil: Oil, count: int, seed: int) -> Contacts:
 
 
 def solved_table(oil: Oil, found: Contacts, way: Way) -> pd.DataFrame:
-    """A row a contact: the inputs of the regression, the way of sliding, friction without sign, error and status."""
+    """Table with a row per contact: regression inputs, sign of sliding, absolute friction, error and status."""
     data = way.solved(oil, found, thermal=True)
     values = inputs_of(oil, found)
     table = pd.DataFrame({one.column: values[one.name] / one.factor for one in INPUTS})
@@ -70,7 +70,7 @@ def solved_table(oil: Oil, found: Contacts, way: Way) -> pd.DataFrame:
 
 
 def properties_of(oil: Oil) -> dict[str, float]:
-    """Coefficients by which the oil of a study is compared with this one."""
+    """Coefficients for comparing the oil of a study with this oil."""
     found = {}
     for name, one in OIL.items():
         viscosity, coefficient = oil.at_ambient(np.array(one.temperature))
@@ -80,7 +80,7 @@ def properties_of(oil: Oil) -> dict[str, float]:
 
 
 def inputs_of(oil: Oil, found: Contacts) -> dict[str, np.ndarray]:
-    """Quantities that the regression reads, in SI."""
+    """Inputs of the regression, in SI."""
     values = (
         found.pressure,
         np.abs(found.sliding) / found.speed,

@@ -1,6 +1,6 @@
-"""What a base law lacks, as rigs see it: a constant factor times powers of speed and load, fitted to each rig apart.
+"""Correction of a base law per rig: a constant factor times powers of speed and load, fitted to each rig.
 
-The spread of these over rigs is how uncertain the law is where one rig runs; what is left is what no such factor takes.
+The scatter of the corrections over rigs is the uncertainty of the law on a single rig; the residual is not a power law.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ from mixedlub.solutions.ratios import ALL, FILM_RATIOS, STRESSES, TRACTION_RATIO
 from mixedlub.solutions.rigs import LEAST_CONTACTS
 
 FLATTENED = 2.0
-"""Moes' M above which film laws are for: below, nothing is flattened."""
+"""Moes' M above which film laws hold: below, the contact is not flattened."""
 COLUMNS = {
     "speed": "speed_parameter",
     "load": "load_parameter",
     "sliding": "slide_roll_ratio",
     "pressure": "hertz_pressure_GPa",
 }
-"""What an exponent is of, with its column."""
+"""Variables of the exponents, with their columns."""
 TERMS: Mapping[str, tuple[str, ...]] = {
     **dict.fromkeys(FILM_RATIOS, ("speed", "load")),
     **dict.fromkeys(TRACTION_RATIOS, ("speed", "load", "sliding")),
@@ -29,13 +29,14 @@ TERMS: Mapping[str, tuple[str, ...]] = {
 }
 """Exponents of each ratio."""
 SHEARED = 10.0
-"""Newtonian over Eyring stress from which friction depends on the Eyring stress by more than two thirds of a power."""
+"""Newtonian over Eyring stress above which friction varies with the Eyring stress by more than two thirds of a
+power."""
 _WIDEST = 6.0
-"""Largest logarithm of the factor on an Eyring stress, and largest exponent, that are looked at."""
+"""Bound of the logarithm of the factor on an Eyring stress, and of its exponent."""
 
 
 def of_rigs(fitted: pd.DataFrame) -> pd.DataFrame:
-    """A row a ratio and rig: factor in the middle of the rig, exponents, and rms of what is left of the logarithm."""
+    """Table with a row per ratio and rig: factor at the rig's centre, exponents, and rms residual of the logarithm."""
     rows = list(_rows(fitted[fitted["moes_load"] >= FLATTENED]))
     return pd.DataFrame(rows) if rows else pd.DataFrame(columns=["ratio", "oil", "rig", "factor"])
 
@@ -49,7 +50,7 @@ def _rows(flattened: pd.DataFrame) -> Iterator[dict[str, object]]:
 
 
 def fit(part: pd.DataFrame, ratio: str) -> dict[str, float] | None:
-    """Factor in the middle, exponents, and what is left; none with too few contacts.
+    """Factor at the centre, exponents, and rms residual; None with too few contacts.
 
     >>> speed, load = (axis.ravel() for axis in np.meshgrid(np.geomspace(1e-12, 1e-11, 4), np.geomspace(1e-5, 1e-4, 4)))
     >>> ratio = 0.8 * (speed / 10**-11.5) ** 0.02 * (load / 10**-4.5) ** -0.05
@@ -76,7 +77,7 @@ def _power_fit(known: pd.DataFrame, ratio: str, design: np.ndarray) -> tuple[np.
 
 
 def _stress_fit(known: pd.DataFrame, ratio: str, design: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The factor and exponent of the Eyring stress with which Ree and Eyring's law has the solved friction."""
+    """Factor and exponent of the Eyring stress that fit Ree and Eyring's law to the solved friction."""
     from scipy.optimize import least_squares
 
     rate, own = known[STRESSES[ratio]].to_numpy(), known["eyring_stress_Pa"].to_numpy()
@@ -91,9 +92,9 @@ def _stress_fit(known: pd.DataFrame, ratio: str, design: np.ndarray) -> tuple[np
 
 
 def summary(rigs: pd.DataFrame, fitted: pd.DataFrame) -> pd.DataFrame:
-    """A row a ratio and oil: mean and spread over rigs of the factor and of each exponent, and what is left in a rig.
+    """Table by ratio and oil: mean and scatter over rigs of factor and exponents, and residual within a rig.
 
-    ``overall_rms_of_log`` is what one factor and one set of exponents for all contacts of the row leave.
+    ``overall_rms_of_log``: residual of a single factor and set of exponents for all contacts of the row.
     """
     rows = []
     flattened = fitted[fitted["moes_load"] >= FLATTENED]

@@ -1,4 +1,4 @@
-"""Full solutions of rigs as a table that is kept: conditions, status, and results with their errors."""
+"""Stored full solutions of rigs as a table: conditions, status, and results with errors."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from mixedlub.solutions.rigs import draw
 from profiles.errors import InputError, nearest
 
 KEPT = Path(__file__).parent / "solutions.csv"
-"""Solutions that the package has."""
+"""Solutions shipped with the package."""
 CONDITIONS = {
     "radius_mm": 1e-3,
     "line_load_N_mm": 1e3,
@@ -33,7 +33,7 @@ RESULTS = {
     "friction_coefficient": ("friction", 1.0),
     "rolling_power": ("rolling_W_m", 1.0),
 }
-"""Results of an isothermal and of a thermal solution: column and its factor from SI."""
+"""Results of an isothermal and a thermal solution: column and factor from SI."""
 ERRORS = {"central_film_error": "film_error_percent", "friction_coefficient_error": "friction_error_percent"}
 WAYS = ("isothermal", "thermal")
 STATUSES = (CONVERGED, DIVERGED)
@@ -41,12 +41,12 @@ _EITHER = " or ".join(map(repr, STATUSES))
 
 
 def oils(names: Sequence[str]) -> dict[str, Oil]:
-    """Oils of the package by name, or of files."""
+    """Oils by name or by file."""
     return {name: oil_of(name, Path(), "OIL") for name in names}
 
 
 def solve_rigs(of: dict[str, Oil], count: int, seed: int, way: Way) -> pd.DataFrame:
-    """Solutions, isothermal and thermal, of so many rigs of each oil."""
+    """Isothermal and thermal solutions of ``count`` rigs per oil."""
     tables = []
     for place, (name, oil) in enumerate(of.items()):
         rigs = draw(oil, count, seed + place)
@@ -58,7 +58,7 @@ def solve_rigs(of: dict[str, Oil], count: int, seed: int, way: Way) -> pd.DataFr
 
 
 def solve_both(oil: Oil, found: Contacts, way: Way) -> dict[str, np.ndarray]:
-    """Columns of the results of contacts."""
+    """Result columns of contacts."""
     columns: dict[str, np.ndarray] = {}
     for kind in WAYS:
         data = way.solved(oil, found, thermal=kind == "thermal")
@@ -72,7 +72,7 @@ def solve_both(oil: Oil, found: Contacts, way: Way) -> dict[str, np.ndarray]:
 
 
 def conditions(found: Contacts) -> pd.DataFrame:
-    """Columns of the conditions of contacts."""
+    """Condition columns of contacts."""
     values = (
         found.radius,
         found.line_load,
@@ -84,7 +84,7 @@ def conditions(found: Contacts) -> pd.DataFrame:
 
 
 def contacts_of(table: pd.DataFrame) -> Contacts:
-    """Contacts of the columns of conditions."""
+    """Contacts from condition columns."""
     radius, load, speed, ratio, celsius = (table[name].to_numpy(float) * f for name, f in CONDITIONS.items())
     return contacts(
         radius=radius, line_load=load, speed=speed, sliding_speed=speed * ratio, oil_temperature=celsius + ZERO_CELSIUS
@@ -92,7 +92,7 @@ def contacts_of(table: pd.DataFrame) -> Contacts:
 
 
 def read_solutions(path: Path) -> pd.DataFrame:
-    """The table of a file, checked."""
+    """Read and check the table of a file."""
     if path.is_dir():
         raise InputError("is a folder; name a file in it", where="--solutions", value=str(path))
     try:
@@ -118,7 +118,7 @@ def read_solutions(path: Path) -> pd.DataFrame:
 
 
 def _check_values(table: pd.DataFrame, path: Path) -> None:
-    """Refuse conditions that are none of a contact, and other words of a status than those of the solver."""
+    """Raise an error for impossible conditions or an unknown status."""
     rules = {f"{kind}_status": (table[f"{kind}_status"].isin(STATUSES), f"must be {_EITHER}") for kind in WAYS}
     for name in ("radius_mm", "line_load_N_mm", "entrainment_speed_m_s"):
         rules[name] = (table[name] > 0.0) & np.isfinite(table[name]), "must be above 0"
@@ -139,7 +139,7 @@ def columns() -> list[str]:
 
 
 def solved_line(table: pd.DataFrame) -> str:
-    """How many contacts have a solution, in words.
+    """Number of solved contacts as text.
 
     >>> solved_line(pd.DataFrame({"isothermal_status": [CONVERGED, "no solution"], "thermal_status": [CONVERGED] * 2}))
     '2 contacts: 1 solved isothermally, 2 with heat'

@@ -1,4 +1,4 @@
-"""The file of a fitted friction law, and where it parts from the published one."""
+"""File of a fitted friction law, and its deviation from the published law."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ from mixedlub.schema.friction_file import SCHEMA
 from mixedlub.solutions.regression import Regression
 
 LEVELS = 5
-"""Levels of pressure, sliding, speed and viscosity at which both laws are compared."""
+"""Levels of pressure, sliding, speed and viscosity for the comparison of both laws."""
 SMOOTH = 0.0
-"""Composite roughness in the published law (m): the solutions are of smooth surfaces."""
+"""Composite roughness in the published law (m): the solutions are for smooth surfaces."""
 
 
 def law_file(oil: str, found: Regression) -> str:
-    """The text of the file that a study names as its `friction_coefficients`."""
+    """Text of the file for `friction_coefficients` of a study."""
     about = f"Friction of full thermal solutions for {oil}.\nSmooth surfaces of steel. Written by `mixedlub condense`."
     return friction_file("condensed", oil, about, found.fit, found.coefficients)
 
 
 def friction_file(law: str, oil: str, about: str, fit: Mapping[str, float], coefficients: Mapping[str, float]) -> str:
-    """The file of a fitted friction law; ``about`` says, line by line, what it was fitted to."""
+    """File of a fitted friction law; ``about``: description of the data, by line."""
     lines = [
         *(f"# {line}" for line in about.splitlines()),
         f'# In a study: [options] friction = "{law}" and friction_coefficients = "THIS FILE".',

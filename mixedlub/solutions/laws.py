@@ -1,4 +1,4 @@
-"""The laws that are compared, each with the result of the full solution that it approximates."""
+"""Laws compared with full solutions, each with the result it approximates."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ from mixedlub.laws import film, heating, mixture, oil, shear
 
 State = dict[str, Any]
 ROUGHNESS = 0.07e-6
-"""Composite roughness (m) for friction laws that read one: superfinished, the smoothest that they were made for."""
+"""Composite roughness (m) for friction laws that read it: superfinished, the smoothest in their range."""
 LEAST_RISE = 5.0
-"""Rise of the walls (K) above which it is that of sliding: compression and rolling warm them by a few kelvin too."""
+"""Temperature rise of the walls (K) above which sliding dominates: compression and rolling cause a few kelvin."""
 MINIMUM = "minimum"
-"""Word in the name of a film law that gives the minimum film."""
+"""Part of the name of film laws for the minimum film."""
 
 
 @dataclass(frozen=True)
 class Compared:
-    """A law: the column of the solution that it is compared with, and its value in the unit of that column."""
+    """A law: column of the solution for comparison, and value in the unit of that column."""
 
     name: str
     against: str
@@ -41,7 +41,7 @@ class Compared:
 
 
 def state_of(of: Oil, found: Contacts) -> State:
-    """Quantities of the glossary that laws of smooth contacts read; bodies are of steel at the oil's temperature."""
+    """Glossary quantities read by laws of smooth contacts; bodies are of steel at the oil temperature."""
     temperature, pressure = found.oil_temperature, found.pressure
     viscosity, coefficient = of.at_ambient(temperature)
     none = np.zeros_like(temperature)
@@ -84,13 +84,13 @@ def state_of(of: Oil, found: Contacts) -> State:
 
 
 def called(law: Callable[..., Any], state: State, **parameters: float) -> np.ndarray:
-    """A law at a state."""
+    """Value of a law at a state."""
     needed = [name for name in inspect.signature(law).parameters if name not in parameters]
     return np.asarray(law(*(state[name] for name in needed), **parameters))
 
 
 def compared() -> Iterator[Compared]:
-    """All laws: of the film, of heat, and of friction."""
+    """All laws: film, heat and friction."""
     yield from _films()
     yield from _heat()
     yield from _frictions()
@@ -131,7 +131,7 @@ def _heat() -> Iterator[Compared]:
 
 
 def _readings() -> Iterator[Compared]:
-    """The base model without heat, and with one of its options changed at a time."""
+    """The isothermal base model, as is and with single options changed."""
     meaning = "Dowson and Toyoda, Roelands and Ree-Eyring at the largest pressure, against an isothermal solution"
     yield Compared("base model, isothermal", "isothermal_friction", lambda state, _: state["fluid_friction"], meaning)
     changed = [
@@ -152,7 +152,7 @@ def _readings() -> Iterator[Compared]:
 def _friction(
     state: State, _: Mapping[str, np.ndarray], *, laws: Mapping[str, Callable[..., Any]], pressure: float
 ) -> np.ndarray:
-    """Isothermal friction with some laws changed, and the viscosity at a share of the largest Hertz pressure."""
+    """Isothermal friction with some laws replaced, and the viscosity at a fraction of the largest Hertz pressure."""
     own = dict(state)
     for name, law in _SHEARED:
         at = {"hertz_pressure": pressure * state["hertz_pressure"]} if name == "contact_viscosity" else {}
@@ -170,7 +170,7 @@ _SHEARED: tuple[tuple[str, Callable[..., Any]], ...] = (
     ("fluid_friction", mixture.fluid_friction),
 )
 OWN_CONSTANTS = "modulus"
-"""A viscosity law whose constants few oils have; where they do, it is the oil's own."""
+"""Viscosity law with constants known for few oils; for those, the constants of the oil are used."""
 MEAN = 0.25 * np.pi
 """Mean over largest Hertz pressure of a line contact."""
 

@@ -1,4 +1,4 @@
-"""Ordinary least squares of readings over named columns."""
+"""Ordinary least squares over named columns."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from scipy.stats import t as student
 
 @dataclass(frozen=True, eq=False)
 class LinearFit:
-    """Ordinary least squares: coefficients with standard errors by name, residuals, and leverages of the readings."""
+    """Ordinary least squares: coefficients with standard errors by name, residuals, and leverages."""
 
     coefficients: pd.Series
     standard_errors: pd.Series
@@ -21,7 +21,7 @@ class LinearFit:
 
     @property
     def freedom(self) -> int:
-        """Number of readings less that of coefficients."""
+        """Number of readings minus number of coefficients."""
         return len(self.residuals) - len(self.coefficients)
 
     @property
@@ -42,7 +42,7 @@ class LinearFit:
 
 
 def least_squares(design: pd.DataFrame, wanted: np.ndarray) -> LinearFit:
-    """Ordinary least squares of readings over the columns of a design, one of which is constant.
+    """Ordinary least squares over the columns of a design with a constant column.
 
     >>> x = np.arange(4.0)
     >>> fit = least_squares(pd.DataFrame({"one": 1.0, "x": x}), np.array([1.0, 3.1, 4.9, 7.0]))

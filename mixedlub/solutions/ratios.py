@@ -1,4 +1,4 @@
-"""Laws over full solutions, contact by contact, and their spread by law and oil."""
+"""Ratios of laws to full solutions by contact, and their spread by law and oil."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from mixedlub.solutions.laws import State, compared, state_of
 FILM_RATIOS = ("film_over_law", "thermal_film_over_law", "flow_film_over_law", "minimum_film_over_law")
 TRACTION_RATIOS = ("traction_mean_over_peak", "thermal_traction_over_peak")
 STRESSES = {"eyring_stress": "solved_rate_Pa", "eyring_stress_of_base_model": "base_rate_Pa"}
-"""Eyring stresses that are fitted, each with its Newtonian stress: with the viscosity of the oil's own law
-and the solved film, or with those of the base model."""
+"""Fitted Eyring stresses, each with its Newtonian stress: from the viscosity of the oil's law and the solved film, or
+from viscosity and film of the base model."""
 ALL = "all"
 """Name of all oils together."""
 _STEPS = 60
-"""Halvings of a stress."""
+"""Bisection steps for a stress."""
 
 
 def by_contact(table: pd.DataFrame, of: dict[str, Oil]) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Conditions with every law over the solution, and with the ratios that are fitted; NaN without a solution."""
+    """Conditions with the ratio of every law to the solution, and with the fitted ratios; NaN without a solution."""
     parts = [_one_oil(table[table["oil"] == name], oil) for name, oil in of.items()]
     laws, fitted = ([part[place] for part in parts] for place in (0, 1))
     return pd.concat(laws, ignore_index=True), pd.concat(fitted, ignore_index=True)
@@ -44,7 +44,7 @@ def _one_oil(table: pd.DataFrame, oil: Oil) -> tuple[pd.DataFrame, pd.DataFrame]
 
 
 def _fitted(oil: Oil, state: State, solved: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Full solutions over the base laws, and traction of the contact over that at the largest pressure."""
+    """Full solutions over base laws, and traction of the contact over the traction at the largest pressure."""
     law = 1e9 * state["film_thickness"]
     names = ("radius", "entrainment_speed", "line_load", "viscosity", "pressure_viscosity", "reduced_modulus")
     least = 1e9 * dowson_higginson(*(state[name] for name in names))
@@ -67,7 +67,7 @@ def _fitted(oil: Oil, state: State, solved: dict[str, np.ndarray]) -> dict[str, 
 
 
 def stress_of(oil: Oil, rate: np.ndarray, pressure: np.ndarray) -> np.ndarray:
-    """Shear stress (Pa) at which an oil has viscosity times shear rate ``rate`` (Pa), by halving.
+    """Shear stress (Pa) of an oil at viscosity times shear rate ``rate`` (Pa), by bisection.
 
     >>> from mixedlub.ehl import example_oil
     >>> round(float(stress_of(example_oil(), np.array([228.5e6]), np.array([1e9]))[0]) / 1e6, 2)   # asinh of 45.7
@@ -82,9 +82,9 @@ def stress_of(oil: Oil, rate: np.ndarray, pressure: np.ndarray) -> np.ndarray:
 
 
 def summary(laws: pd.DataFrame) -> pd.DataFrame:
-    """By law and oil: contacts, median of law over solution with its 5 and 95 % points, and mean size of its logarithm.
+    """Table by law and oil: contacts; median, 5 and 95 % points, mean absolute logarithm of law over solution.
 
-    A law that gives nothing or less somewhere has no logarithm there; these contacts are counted apart.
+    Contacts with a zero, negative or missing value have no logarithm and are counted separately.
     """
     rows = []
     for name in (one.name for one in compared()):

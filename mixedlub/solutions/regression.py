@@ -1,4 +1,4 @@
-"""The regression: coefficients from four solutions in five, and their error on the fifth."""
+"""Regression: coefficients from four fifths of the solutions, and their error on the remaining fifth."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from mixedlub.solutions.least_squares import least_squares
 from profiles.errors import RunError
 
 EVERY = 5
-"""Solutions of which one is left out of the fit."""
+"""Every 5th solution is left out of the fit."""
 LEAST = 2 * EVERY * len(TERMS) // (EVERY - 1)
-"""Solutions that are needed: two for each term."""
+"""Smallest number of solutions: two per term."""
 
 
 @dataclass(frozen=True)
 class Regression:
-    """Coefficients of the law with their standard errors, the solutions with fit and residual, and the errors."""
+    """Coefficients of the law with standard errors, solutions with fit and residual, and errors."""
 
     coefficients: Mapping[str, float]
     standard_errors: Mapping[str, float]
@@ -30,7 +30,7 @@ class Regression:
 
     @property
     def terms(self) -> pd.DataFrame:
-        """A row a term: coefficient, standard error and their ratio."""
+        """Table with a row per term: coefficient, standard error and their ratio."""
         names = list(self.standard_errors)
         values, errors = ([of[name] for name in names] for of in (self.coefficients, self.standard_errors))
         rows = {"term": [term_in_words(name) for name in names], "coefficient": names, "value": values}
@@ -38,7 +38,7 @@ class Regression:
 
 
 def term_in_words(name: str) -> str:
-    """The term of a coefficient.
+    """The term of a coefficient as text.
 
     >>> term_in_words("c_ss"), term_in_words("c_0")
     ('s s', '1')
@@ -47,7 +47,7 @@ def term_in_words(name: str) -> str:
 
 
 def limits_of(values: Mapping[str, np.ndarray]) -> dict[str, float]:
-    """Coefficients that bound the inputs (in their units) to what was solved or measured."""
+    """Coefficients that bound the inputs (in their units) to the solved or measured range."""
     return {
         end: float(value)
         for one in INPUTS
@@ -56,7 +56,7 @@ def limits_of(values: Mapping[str, np.ndarray]) -> dict[str, float]:
 
 
 def design_of(values: Mapping[str, np.ndarray]) -> pd.DataFrame:
-    """A column a term, named as its coefficient, from the inputs in their units."""
+    """Design with a column per term, named like its coefficient, from inputs in their units."""
     terms = columns({one.letter: np.log(values[one.name] / one.middle) for one in INPUTS})
     return pd.DataFrame(np.column_stack(np.broadcast_arrays(*terms)), columns=[coefficient_name(t) for t in TERMS])
 
@@ -67,7 +67,7 @@ def fitted(values: Mapping[str, np.ndarray], coefficients: Mapping[str, float]) 
 
 
 def regression(solutions: pd.DataFrame, of_oil: Mapping[str, float]) -> Regression:
-    """The law fitted to the logarithm of friction by least squares; ``of_oil`` are its coefficients of the oil."""
+    """Law fitted to the logarithm of friction by least squares; ``of_oil``: its coefficients of the oil."""
     table = solutions[solutions["status"] == CONVERGED].reset_index(drop=True)
     if len(table) < LEAST:
         raise RunError(f"{len(table)} contacts have a solution; the regression needs {LEAST}: ask for more solutions")
@@ -86,7 +86,7 @@ def regression(solutions: pd.DataFrame, of_oil: Mapping[str, float]) -> Regressi
 
 
 def _errors(table: pd.DataFrame, solutions: pd.DataFrame) -> dict[str, float]:
-    """How well the law has the solutions, on those that it was fitted to and on those left out."""
+    """Errors of the law on the fitted and the left-out solutions."""
     left, out = table["residual_of_log"], table["left_out"]
     backwards = table["sliding"] == "first faster"
     away = table["friction"] - table["fitted"]
@@ -108,7 +108,7 @@ def _errors(table: pd.DataFrame, solutions: pd.DataFrame) -> dict[str, float]:
 
 
 def _published(values: Mapping[str, np.ndarray], wanted: np.ndarray, out: np.ndarray) -> float:
-    """Rms of what the terms of Xu and Kahraman leave of the same solutions, of those left out."""
+    """Rms error of Xu and Kahraman's terms, fitted to the same solutions, on the left-out solutions."""
     p, s, u, v, r = (values[one.name] for one in INPUTS)
     x = s * p * np.log10(v)
     design = np.column_stack([np.ones_like(p), *(np.log(each) for each in (p, s, u, v, r)), x, np.exp(-x)])

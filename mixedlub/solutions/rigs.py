@@ -1,4 +1,4 @@
-"""Contacts at which laws are compared: rigs over the regimes of gear contacts, each at several speeds and loads."""
+"""Contacts for the comparison of laws: rigs over the regimes of gears, each at several speeds and loads."""
 
 from __future__ import annotations
 
@@ -19,30 +19,30 @@ LOADS, MATERIALS = (1.0, 300.0), (3.0, 22.0)
 PRESSURES, SPEEDS = (0.2e9, 2.0e9), (0.1, 50.0)
 """Hertz pressures (Pa) and mean surface speeds (m/s) of gears."""
 RADII, TEMPERATURES = (4e-3, 30e-3), (50.0 + ZERO_CELSIUS, 100.0 + ZERO_CELSIUS)
-"""Reduced radii (m), and oil temperatures (K) in the middle of a rig's range."""
+"""Reduced radii (m), and oil temperatures (K) at the centre of a rig's range."""
 RATIOS = (0.02, 1.0)
 """Slide-to-roll ratios."""
 SPEED_STEPS, LOAD_STEPS, WARMER = (0.35, 0.7, 1.4, 2.8), (0.4, 1.0, 2.5), (-15.0, 15.0)
-"""A rig's speeds and loads over those in its middle, and its oil temperatures less that (K)."""
+"""Speeds and loads relative to the centre of a rig, and oil temperatures relative to its centre (K)."""
 LEAST_CONTACTS = 12
-"""Half of a full rig: fewer contacts do not tell exponents of speed and load."""
+"""Half of a full rig: fewer contacts do not determine exponents of speed and load."""
 LEAST_DRAWN = 16
-"""Contacts inside the ranges that a rig has at least, as some may have no solution."""
+"""Smallest number of contacts of a rig inside the ranges, as some may have no solution."""
 _MOST_TRIED = 2000
-"""Cost limit. Rigs tried; a small part of the ranges of M, L and pressure overlaps for some oils."""
+"""Cost limit. Rigs tried; the ranges of M, L and pressure overlap little for some oils."""
 STEEL = reduced_modulus((206e9, 206e9), (0.3, 0.3))
 
 
 @dataclass(frozen=True)
 class Rigs:
-    """Contacts, and the number of the rig of each, from 1."""
+    """Contacts, and the rig number of each, from 1."""
 
     number: np.ndarray
     contacts: Contacts
 
 
 def draw(oil: Oil, count: int, seed: int) -> Rigs:
-    """So many rigs of an oil, spread evenly over the logarithm of M, over L, radius and temperature.
+    """Rigs of an oil, spread evenly over the logarithm of M, over L, radius and temperature.
 
     >>> from mixedlub.ehl import example_oil
     >>> rigs = draw(example_oil(), 2, seed=1)
@@ -66,7 +66,7 @@ def draw(oil: Oil, count: int, seed: int) -> Rigs:
 
 
 def _rig(oil: Oil, load: float, material: float, radius: float, warmth: float, shift: float) -> dict[str, Any]:
-    """Contacts of one rig that are inside the ranges, from five numbers from 0 to 1."""
+    """Contacts of a rig inside the ranges, from five numbers between 0 and 1."""
     middle = _geometric(LOADS, load), MATERIALS[0] + material * (MATERIALS[1] - MATERIALS[0])
     size = _geometric(RADII, radius)
     temperature = TEMPERATURES[0] + warmth * (TEMPERATURES[1] - TEMPERATURES[0])
@@ -89,7 +89,7 @@ def _rig(oil: Oil, load: float, material: float, radius: float, warmth: float, s
 
 
 _GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
-"""Step that spreads slide-to-roll ratios evenly over any number of contacts."""
+"""Step for an even spread of any number of slide-to-roll ratios."""
 
 
 def _geometric(ends: tuple[float, float], place: float | np.ndarray) -> np.ndarray:
@@ -97,7 +97,7 @@ def _geometric(ends: tuple[float, float], place: float | np.ndarray) -> np.ndarr
 
 
 def inside(oil: Oil, found: Contacts) -> np.ndarray:
-    """Whether contacts are inside the ranges, and inside that of the oil's file."""
+    """Whether contacts are inside the ranges and inside the range of the oil's file."""
     load, material = found.moes(*oil.at_ambient(found.oil_temperature))
     rules = ((load, LOADS), (material, MATERIALS), (found.pressure, PRESSURES), (found.speed, SPEEDS))
     fits = [(value >= low) & (value <= high) for value, (low, high) in rules]

@@ -1,4 +1,4 @@
-"""Stepwise multiple regression: which terms of a law measured friction asks for."""
+"""Stepwise multiple regression: selection of the terms of a friction law for measurements."""
 
 from __future__ import annotations
 
@@ -17,26 +17,26 @@ Criterion = Literal["bic", "p-value"]
 ENTER, LEAVE = 0.05, 0.10
 """Convention. p-values below which a term enters, and above which it leaves."""
 PER_TERM = 5
-"""Judgement. Readings that each term of a law needs."""
+"""Judgement. Readings needed per term of a law."""
 FEWEST = 2 * PER_TERM
-"""Readings that a regression needs."""
+"""Smallest number of readings of a regression."""
 SAME = 1e-6
-"""Relative difference up to which values of an input are one level."""
+"""Relative difference up to which values of an input are the same level."""
 DETERMINED = 1e-8
-"""Least share of a term's squares that the terms chosen so far do not make up."""
+"""Smallest share of a term's squares unexplained by the terms chosen so far."""
 ONE_BY_ONE, FOLDS = 200, 10
-"""Cost limit. Readings that are left out one by one, and parts in which more of them are."""
+"""Cost limit. Largest number of readings for leave-one-out, and number of folds above it."""
 ALIKE = 1e-6
-"""Relative difference up to which two terms leave the same, as squares and cubes of three levels do."""
+"""Relative difference up to which two terms fit equally, as squares and cubes of three levels do."""
 CONSTANT = coefficient_name("")
 
 
 def chosen_terms(design: pd.DataFrame, wanted: np.ndarray, criterion: Criterion) -> list[str]:
-    r"""Columns of the design that a stepwise regression keeps, the constant first.
+    r"""Columns of the design selected by stepwise regression, constant first.
 
-    Each step adds the term that improves the fit most, then drops those that have become needless: by the Bayesian
-    information criterion, or by p-values of 0.05 to enter and 0.10 to leave. For one term among k of n readings, both
-    are bounds of its t; the criterion falls where :math:`t^2 > (n - k)(n^{1/n} - 1)`.
+    Each step adds the term with the largest improvement, then drops needless terms: by the Bayesian information
+    criterion, or by p-values of 0.05 to enter and 0.10 to leave. For a term among k of n readings, both are bounds of
+    its t; the criterion falls for :math:`t^2 > (n - k)(n^{1/n} - 1)`.
 
     >>> x = np.random.default_rng(0).standard_normal((60, 4))
     >>> table = pd.DataFrame({"c_0": 1.0, "c_p": x[:, 0], "c_s": x[:, 1], "c_u": x[:, 2]})
@@ -52,7 +52,7 @@ def chosen_terms(design: pd.DataFrame, wanted: np.ndarray, criterion: Criterion)
 
 
 def _bound(criterion: Criterion, count: int, terms: int, level: float) -> float:
-    """Square of t from which on a term is worth its place among as many."""
+    """Square of t above which a term is kept among this number of terms."""
     freedom = count - terms
     return (
         freedom * (count ** (1.0 / count) - 1.0) if criterion == "bic" else float(student.isf(level / 2, freedom) ** 2)
@@ -60,7 +60,7 @@ def _bound(criterion: Criterion, count: int, terms: int, level: float) -> float:
 
 
 def _with_best(design: np.ndarray, wanted: np.ndarray, kept: list[int], criterion: Criterion) -> list[int]:
-    """The terms with the one that improves the fit most, if any does."""
+    """Forward selection: the terms, plus the term with the largest improvement, if any improves the fit."""
     count, terms = len(wanted), len(kept) + 1
     if terms * PER_TERM > count:
         return kept
@@ -78,18 +78,18 @@ def _with_best(design: np.ndarray, wanted: np.ndarray, kept: list[int], criterio
 
 
 def is_determined(design: pd.DataFrame, name: str) -> bool:
-    """Whether a column differs from what the others make up."""
+    """Whether a column differs from linear combinations of the others."""
     own = design[[name]].to_numpy()
     return bool((left_of(design.drop(columns=name).to_numpy(), own) ** 2).sum() > DETERMINED * (own**2).sum())
 
 
 def left_of(known: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """What columns that are known leave of others by least squares."""
+    """Residuals of columns after least squares over known columns."""
     return np.asarray(values - known @ np.linalg.lstsq(known, values, rcond=None)[0])
 
 
 def _without_needless(design: np.ndarray, wanted: np.ndarray, kept: list[int], criterion: Criterion) -> list[int]:
-    """The terms without those whose loss improves the criterion, one after the other."""
+    """Backward elimination by the information criterion."""
     count = len(wanted)
     while len(kept) > 1:
         inverse = np.linalg.pinv(design[:, kept])
@@ -104,10 +104,9 @@ def _without_needless(design: np.ndarray, wanted: np.ndarray, kept: list[int], c
 
 
 def errors_left_out(design: pd.DataFrame, wanted: np.ndarray, criterion: Criterion) -> tuple[np.ndarray, int]:
-    """Errors at readings that neither chose the terms nor were fitted, and into how many parts these were put.
+    """Errors at left-out readings, and the number of folds.
 
-    Each reading is a part of its own, or up to `ONE_BY_ONE` of them; more are dealt to `FOLDS` parts by chance. Terms
-    are chosen anew without each part.
+    Leave-one-out up to `ONE_BY_ONE` readings, else `FOLDS` random folds. Terms are chosen anew without each fold.
     """
     count, values = len(wanted), design.to_numpy()
     parts = count if count <= ONE_BY_ONE else FOLDS
@@ -122,7 +121,7 @@ def errors_left_out(design: pd.DataFrame, wanted: np.ndarray, criterion: Criteri
 
 
 def varied(values: Mapping[str, np.ndarray]) -> str:
-    """Letters of the inputs that were varied."""
+    """Letters of the varied inputs."""
     return "".join(one.letter for one in INPUTS if np.ptp(np.log(values[one.name])) > SAME)
 
 
@@ -138,13 +137,12 @@ def candidates(letters: str, order: int) -> list[str]:
 def measured_regression(
     values: Mapping[str, np.ndarray], friction: np.ndarray, order: int, by: Criterion
 ) -> Regression:
-    r"""A law of measured friction from the terms that it asks for; all other coefficients are zero.
+    r"""A law of measured friction with stepwise selected terms; all other coefficients are zero.
 
-    ``values`` are the inputs in their units, of `FEWEST` readings or more. The logarithm of friction is regressed over
-    products of up to ``order`` logarithms of the inputs. Standard errors would hold only had the terms
-    been named beforehand, for readings that scatter independently: the same readings chose the terms, so that those
-    kept by chance look significant. Terms are chosen anew for the error of readings left out. Coefficients of the oil
-    are left unknown.
+    ``values``: inputs in their units, of `FEWEST` readings or more. The logarithm of friction is regressed over
+    products of up to ``order`` logarithms of the inputs. Standard errors would hold only for terms named beforehand and
+    independent readings: the same readings select the terms, so that terms kept by chance look significant. Terms are
+    selected anew for the error of readings left out. Coefficients of the oil are unknown.
 
     Source: H. Xu, PhD thesis, Ohio State University, 2005, chapter 3, for the multiple regression of the logarithm of
     measured friction over transformed terms.
@@ -167,7 +165,7 @@ def measured_regression(
 
 
 def _quality(fit: LinearFit, left_out: np.ndarray, parts: int) -> dict[str, float]:
-    """Number of readings and terms, and measures of the misfit of the law."""
+    """Number of readings and terms, and measures of the misfit."""
     readings, terms = len(fit.residuals), len(fit.coefficients)
     unexplained = fit.squares / fit.total_squares
     return {

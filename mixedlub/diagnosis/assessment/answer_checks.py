@@ -105,10 +105,7 @@ def answer_warnings(
     wrong: np.ndarray,
     at_one_place: bool = False,
 ) -> list[Finding]:
-    """Doubts about the answer as a whole: many outliers, or levels that it does not predict.
-
-    Other levels cannot predict a mismatch ``at_one_place``.
-    """
+    """Doubts about the answer: many outliers, or poorly predicted levels unless the mismatch is ``at_one_place``."""
     warnings = []
     if wrong.mean() > MANY_OUTLIERS:
         text = (
@@ -186,10 +183,7 @@ def outlier_streak(rows: Table, wrong: np.ndarray, residual: np.ndarray) -> list
 
 
 def outlier_levels(rows: Table, wrong: np.ndarray, residual: np.ndarray) -> list[tuple[str, str]]:
-    """Levels with nearly all readings wrong on one side, if improbable by chance, and the share of wrong readings.
-
-    Empty if most readings of the recording are wrong.
-    """
+    """Levels mostly wrong on one side, if improbable by chance, with shares; empty if most readings are wrong."""
     if wrong.mean() >= MOST_OF_LEVEL:
         return []
     levels = []

@@ -196,10 +196,7 @@ def _discrepancy_columns(search: Search) -> list[np.ndarray]:
 
 
 def _discrepancy_residuals(search: Search, forms: list[np.ndarray], out: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Residuals and prediction variance of left-out readings under the discrepancy fitted to the others (linearised).
-
-    The other readings also weight its ``forms``.
-    """
+    """Residuals and prediction variance of left-out readings; the other readings fit and weight the ``forms``."""
     problem, base = search.problem, search.discrepancy.base
     log, residuals, variance = [], [], []
     for form in forms:

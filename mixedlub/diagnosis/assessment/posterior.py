@@ -18,10 +18,7 @@ from mixedlub.diagnosis.settings.assessment import FLOOR, TEST_MARGIN, TIE
 
 @dataclass(frozen=True)
 class Posterior:
-    """Probability of every explanation, the verdict first.
-
-    Log odds between effects were divided by ``overdispersion``.
-    """
+    """Probability of every explanation, the verdict first; ``overdispersion`` divided the log odds between effects."""
 
     weights: Mapping[Explanation, float]
     verdict: Explanation

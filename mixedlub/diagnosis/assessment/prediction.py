@@ -46,10 +46,7 @@ class Prediction:
 
 @dataclass(frozen=True, eq=False)
 class Refined:
-    """A fit with an error of form: coordinates, its coefficients, joint covariance.
-
-    Change points are not in the covariance; ``change_points`` has their posteriors.
-    """
+    """A fit with an error of form; ``change_points`` hold the posteriors that the covariance lacks."""
 
     fit: Fit
     z: np.ndarray

@@ -106,10 +106,7 @@ def _family_evidence(
     weight: np.ndarray,
     cost: float = 0.0,
 ) -> _FamilyEvidence:
-    """Evidence of forms at fixed weights of the readings, and of the best few in full.
-
-    ``cost`` is the log of the number of forms from which each was selected.
-    """
+    """Evidence of forms at fixed weights, of the best few in full, less ``cost``, the log number of competing forms."""
     tried: list[DiscrepancyForm] = []
     quick: list[float] = []
     whitened = whitening(fixed, weight)

@@ -93,10 +93,7 @@ def _share(problem: Problem, base: Run) -> np.ndarray:
 
 
 def log_slope(problem: Problem, base: Run, name: str) -> np.ndarray | None:
-    """Derivative of the transformed readings with respect to the logarithm of a quantity of the chain.
-
-    ``base`` is a run of the base model. None if the chain lacks the quantity.
-    """
+    """Derivative of transformed readings at run ``base`` by the log of a quantity; None if the chain lacks it."""
     forward, inputs = problem.forward, base.inputs
     if name not in forward.inputs and name not in {step for step, _ in forward.chain}:
         return None

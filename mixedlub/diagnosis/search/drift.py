@@ -132,10 +132,7 @@ def is_autocorrelated(residual: np.ndarray) -> bool:
 def _most_probable(
     problem: Problem, forms: Sequence[CorrelatedError], least: float, target: np.ndarray, slopes: np.ndarray
 ) -> tuple[float, tuple[CorrelatedError, float]]:
-    """Gain in log evidence of a linear model, and the correlated error and white noise with this gain.
-
-    The white noise stays unchanged if several readings count as one.
-    """
+    """Gain in log evidence by the best correlated error and white noise (fixed if several readings count as one)."""
     smaller_noise = (
         [*(q for q in WHITE_SHARES if q > least), *([least] if least < 1.0 else [])]
         if problem.n_per_effective == 1.0

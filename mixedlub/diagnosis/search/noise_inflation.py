@@ -141,10 +141,7 @@ def _under_other_noise(search: Search, times: np.ndarray) -> tuple[float, int]:
 
 
 def search_estimated_noise(case: Case, trial: Trial) -> Search:
-    """Search under the estimated noise, scaled so that the readings are most probable.
-
-    The residuals then give the relative and the absolute part of the noise, better than a few repeats do.
-    """
+    """Search under estimated noise; residuals give its relative and absolute part better than a few repeats."""
     fitted = trial(case)
     gain, other = _other_parts(fitted)
     if gain < MIXTURE_GAIN:
@@ -174,10 +171,7 @@ def inflation_gains(residual: np.ndarray, times: np.ndarray) -> np.ndarray:
 
 
 def noise_overstated(search: Search) -> bool:
-    """Whether residuals of the calibrated base model are below half of the stated noise.
-
-    That model has few free coordinates, so the noise must be overstated.
-    """
+    """Whether residuals of the base model, which has few coordinates, are below half of the stated noise."""
     freedom = search.null_fit.residual.size - search.null_fit.z.size
     residual = search.problem.single_reading_units(search.null_fit.residual)
     return freedom >= LEAST_FREEDOM and float(residual @ residual) < OVERSTATED_VARIANCE * freedom

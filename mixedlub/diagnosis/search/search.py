@@ -118,10 +118,7 @@ def search(
     exclude: Sequence[str] = (),
     progress: Progress = lambda text: None,
 ) -> Search:
-    """Fit and weigh all promising explanations.
-
-    Beyond MANY rows all explanations are tried on a subset, and the most probable ones are fitted to all rows.
-    """
+    """Fit and weigh all promising explanations; beyond MANY rows on a subset, and the leaders on all rows."""
     if problem.y.size <= MANY:
         return _search(problem, space, values, exclude, progress)
     rows = spread_rows(values, problem.y.size)
@@ -142,10 +139,7 @@ def search(
 
 
 def reweighed(search: Search, problem: Problem) -> Search:
-    """Weigh a search again under another noise: its fits are continued, and no explanation is added.
-
-    Fits far behind the best under both noises are only rescaled.
-    """
+    """Search reweighed under another noise: near fits are continued, far fits rescaled, and none is added."""
     best = search.best_named
     problem = problem.with_sd(best.prediction, search.null_fit.prediction)
     scale = search.problem.sd / problem.sd
@@ -251,10 +245,7 @@ def shows(problem: Problem, fit: Fit, fits: Mapping[Explanation, Fit]) -> bool:
 
 
 def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: np.ndarray) -> dict[Explanation, Fit]:
-    """Fits under a new noise level; fits far behind the best only keep their distance to it.
-
-    ``scale`` is the old noise over the new.
-    """
+    """Fits under a new noise, ``scale`` the old over the new; fits far behind keep their distance to the best."""
     new = {
         m: map_fit(problem, m, f.z, warm=True, slopes=f.slopes * scale[:, None])
         for m, f in singles.items()

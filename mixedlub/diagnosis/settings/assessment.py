@@ -46,8 +46,7 @@ MOST_PENALTY = 20.0
 LEAST_MISMATCH = 0.3
 """Judgement. Least mismatch (squared standard deviations) in the judgement of shares: less is noise."""
 CHANCE_GAIN = 5.0
-"""Judgement. Gain in log probability of effects over the discrepancy, on left-out levels, that may be chance: odds
-of 150."""
+"""Judgement. Chance gain of effects over the discrepancy in log probability on left-out levels: odds of 150."""
 VALIDATED = 6
 """Cost limit. Cross-validated explanations; each costs as many fits as there are levels."""
 
@@ -71,8 +70,7 @@ LAW_OPEN = -2.3
 """Source: H. Jeffreys, Theory of Probability, 3rd ed. (1961), appendix B. Log odds above which a law cannot be
 excluded: a Bayes factor of ten against it, from which evidence is strong."""
 EXACT_EXPONENT = 0.01
-"""Judgement. Distance between an exponent and a law's exponent at the end of its prior that counts as equal: as
-printed."""
+"""Judgement. Difference of an exponent from a law's at the end of its prior that counts as zero: as printed."""
 
 # Power laws
 EXPONENTS = tuple(s * Fraction(n, m) for n, m in ((1, 3), (1, 2), (2, 3), (1, 1), (2, 1)) for s in (1, -1))
@@ -112,8 +110,7 @@ RIVAL_WEIGHT = 0.05
 TESTS, TESTS_APART = 3, 2
 """Judgement. Tests that are proposed, and the conditions in which each two differ: a short list without twins."""
 BEYOND_SPAN, BEYOND_LOWEST = 0.25, 0.6
-"""Judgement. Extent of tests beyond the recorded range as a share of it, and lowest level of a test over the lowest
-recorded."""
+"""Judgement. Tests beyond the recorded range: excess over the range, and least level over the lowest recorded."""
 INNER_QUANTILES = (0.0, 0.33, 0.67, 1.0)
 """Grid. Quantiles of the levels of a condition that represent all levels."""
 TEST_LEVELS = 8
@@ -148,8 +145,7 @@ MOST_OF_LEVEL = 0.75
 OVERDISPERSION_REPORTED = 1.5
 """Judgement. Inflation of the variance from which it is reported: errors of 1.2 times the expected ones."""
 POOR_PREDICTION = 3.0
-"""Judgement. Error on left-out levels, in standard deviations of a reading, from which the prediction fails: beyond
-noise."""
+"""Judgement. Error on left-out levels, in sd of a reading, from which the prediction fails: beyond noise."""
 LARGE_NOISE = 0.1
 """Judgement. Share of a reading from which estimated noise is doubted: rigs do better."""
 VISIBLE = 3.0

@@ -34,8 +34,7 @@ LOCAL_READINGS = 3.0
 PEAK_SHARE = 0.4
 """Judgement. Share of the readings that a peak may cover; more is a trend."""
 LOCAL_CONFOUNDED = 0.75
-"""Judgement. Largest share of the variance of a form in time that a condition explains: beyond, the condition is the
-cause."""
+"""Judgement. Largest share of the variance of a form in time explained by a condition: beyond, the condition acts."""
 SAME_FORM_WITHIN = 0.05
 """Judgement. Largest difference of two local forms of height one that count as the same: 5 %."""
 BOX_SEEDS = 12
@@ -55,7 +54,6 @@ PERIOD_STEP = 0.25
 WAVE_REFINEMENT = PERIOD_STEP * np.linspace(-1.0, 1.0, 11)
 """Grid. Refinement of the number of periods about the best wave."""
 WAVE_CONFOUNDED = 0.5
-"""Judgement. Largest share of the variance of a wave that the levels of a condition explain: beyond, they are the
-cause."""
+"""Judgement. Largest share of the variance of a wave explained by a condition: beyond, the condition acts."""
 STEPPED_SHARE = 0.5
 """Judgement. Levels over readings below which a condition was stepped: each level was then read twice."""

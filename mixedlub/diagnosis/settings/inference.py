@@ -30,8 +30,7 @@ MOST_COORDINATE = 4.5
 SMALLEST_READING = 1e-30
 """Judgement. Lower bound on predictions in logarithms: far below any reading."""
 NOISE_BY_READING_BELOW = 0.1
-"""Judgement. Ratio of prediction to reading below which relative noise is taken from the reading: the model lacks a
-part of the rig."""
+"""Judgement. Prediction over reading below which relative noise refers to the reading: the model lacks a part."""
 
 # Outliers
 OUTLIER_SHARE = 0.01

@@ -90,8 +90,7 @@ ERROR_SIZES = (0.5, 1.0, 2.0, 4.0)
 WHITE_SHARES = (0.7, 0.5, 0.35)
 """Grid. Shares of the noise for single readings; the rest is correlated."""
 DRIFT_CANDIDATES = 6
-"""Cost limit. Most probable effects with a fitted correlated error, in addition to nothing missing and the
-discrepancy."""
+"""Cost limit. Most probable effects with a fitted correlated error, beside nothing missing and the discrepancy."""
 MOST_UNDER_NULL = 2.0
 """Judgement. Largest correlated error if nothing is missing, over the scatter between neighbours; more is physics."""
 DRIFT_GAIN = 12.0

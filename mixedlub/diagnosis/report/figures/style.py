@@ -54,10 +54,7 @@ def blank(width: float, height: float) -> Figure:
 
 
 def as_drawn(figure: Figure) -> str:
-    """Figure as an `svg` element, with a single computation of the layout.
-
-    The style applies to layout and saving: another size of tick labels could add labels without room in the layout.
-    """
+    """Figure as an `svg` element; layout and saving share the style, as larger tick labels would lack room."""
     with look():
         engine = figure.get_layout_engine()
         if engine is not None:

@@ -21,11 +21,7 @@ SUITS = (
 
 @dataclass(frozen=True)
 class Nearest:
-    """Nearest effects, the share they explain, and the chi-square before and after.
-
-    Chi-square sums ``count`` single readings, as in the mismatch test. ``explanation`` is empty if no effect explains
-    enough.
-    """
+    """Nearest effects (empty if weak), explained share, chi-square of ``count`` single readings before and after."""
 
     explanation: Explanation
     share: float
