@@ -18,8 +18,9 @@ test: .venv/dev
 bench: .venv/dev
 	@for file in benchmarks/*.py; do $(BIN)/python $$file || exit 1; done
 
+# QUICK leaves out the long tests and takes few cases.
 prove: .venv/dev
-	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto -m long
+	$(if $(QUICK),,OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto -m long)
 	$(BIN)/mixedlub prove --out out/prove $(if $(QUICK),--quick)
 	$(BIN)/mixedlub prove --rigs --out out/prove_rigs $(if $(QUICK),--quick)
 

@@ -89,8 +89,9 @@ def test_ctrl_c_says_where_what_was_done_is_kept_and_that_it_goes_on(tmp_path, i
 
 def test_ctrl_c_while_drawing_says_where_the_tables_are(tmp_path, interrupted, capsys):
     interrupted("mixedlub.diagnosis.report.files.drawings")
-    out = tmp_path / "out"
-    assert main(["diagnose", str(EXAMPLES / "case"), "--out", str(out)]) == 130
+    out, case = tmp_path / "out", tmp_path / "case"
+    assert main(["new", "case", "--kind", "film", "--out", str(case)]) == 0
+    assert main(["diagnose", str(case), "--out", str(out)]) == 130
     assert capsys.readouterr().err.endswith(f"mixedlub: stopped; the tables are in {out}\n")
     assert (out / "diagnosis.json").exists()
     assert not (out / "report.html").exists()

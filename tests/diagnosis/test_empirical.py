@@ -55,6 +55,7 @@ def test_law_predicts_levels_left_out(lawful: Diagnosis) -> None:
     assert law.heldout_after < 0.3 * law.heldout_before
 
 
+@pytest.mark.long
 def test_no_simple_law_for_a_bump(unnamed: Diagnosis) -> None:
     assert power_law(unnamed.search) is None
 

@@ -93,6 +93,7 @@ def test_nothing_missing_is_not_detected_and_a_loss_is() -> None:
     assert mismatch_test(found_in(problem(seed=5, extra=0.05)), 0.01).detected
 
 
+@pytest.mark.long
 def test_very_many_readings_give_the_answer_of_all(monkeypatch: pytest.MonkeyPatch) -> None:
     p = problem(extra=0.05)
     all_rows = found_in(p)
@@ -124,6 +125,7 @@ def test_rows_without_a_coating_know_the_effect_of_one() -> None:
     assert (p.take(~bare).predict(explanation, z) < p.predict(NOTHING, z[:-1])[~bare]).all()
 
 
+@pytest.mark.long
 def test_bending_cannot_rescue_a_wrong_effect_without_bound() -> None:
     found = found_in(problem(extra=0.3))
     for explanation, score in found.scores.items():

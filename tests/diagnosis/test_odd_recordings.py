@@ -42,6 +42,7 @@ def test_few_readings_without_stated_noise_are_no_mismatch(make_case, tmp_path: 
     assert not found.test.detected
 
 
+@pytest.mark.long
 def test_a_large_sd_only_marks_its_reading(make_case, tmp_path: Path) -> None:
     def marked(lines: list[str]) -> list[str]:
         sds = ["900" if i in (5, 30) else "2" for i in range(len(lines) - 1)]
@@ -59,6 +60,7 @@ def test_sds_of_few_tests_come_near_the_true_one() -> None:
     assert np.sqrt(np.mean(shrunk_sd(few, np.ones(60), np.ones((60, 60))) ** 2)) == pytest.approx(1.0, rel=0.15)
 
 
+@pytest.mark.long
 def test_conditions_where_the_unnamed_mismatch_has_nothing_to_ride_on_are_predicted(
     unnamed: Diagnosis, tmp_path: Path
 ) -> None:
@@ -103,6 +105,7 @@ def test_set_ups_with_errors_of_their_own_are_not_outliers(make_case, tmp_path: 
     assert found.heldout.before < 1.5
 
 
+@pytest.mark.long
 def test_many_wrong_readings_are_told(make_case, tmp_path: Path) -> None:
     def turned(lines: list[str]) -> list[str]:
         head, *rows = lines

@@ -48,7 +48,8 @@ def test_half_of_what_is_believed_of_an_effect_is_its_published_law(viscous: flo
     assert low <= published_gain(made, free) < high
 
 
-@pytest.mark.parametrize("seed", [6, pytest.param(5, marks=pytest.mark.long), pytest.param(9, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("seed", [5, 6, 9])
 def test_the_place_of_a_sudden_change_is_found_and_paid_for(make, seed: int) -> None:
     """A miscounted order above the fifth of 20 films may begin in one gap of 20: a share of what it could be."""
     speed = np.geomspace(0.01, 2.0, 20)

@@ -72,6 +72,7 @@ def test_an_effect_stays_visible_through_it(half: Callable[..., Path], excluded:
     assert d.posterior.verdict == Explanation.of("sensor_gain")
 
 
+@pytest.mark.long
 def test_sds_of_the_readings_are_raised_likewise(make_case: Make, tmp_path: Path, excluded: tuple[str, ...]) -> None:
     folder = make_case(tmp_path / "case", "disc")
     path = folder / "recordings.csv"
@@ -124,6 +125,7 @@ def test_a_fit_whose_evidence_is_carried_over_raises_no_noise(offset: Diagnosis)
     assert best_inflation(wild)[0] < INFLATION_GAIN
 
 
+@pytest.mark.long
 def test_repeats_bound_the_noise_of_very_many_readings(
     make_case: Make, tmp_path: Path, excluded: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
 ) -> None:

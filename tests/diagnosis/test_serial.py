@@ -29,6 +29,7 @@ def answer(make, friction: np.ndarray) -> Diagnosis:
     return diagnose_case(make(system("friction_history", "friction_coefficient"), columns).folder)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("correlation", [0.0, 0.8])
 def test_noise_that_lasts_is_no_mismatch(make, correlation: float) -> None:
     """A first-order series tells (1 - r)/(1 + r) of its readings' number: 9 for one at r = 0.8."""
@@ -39,6 +40,7 @@ def test_noise_that_lasts_is_no_mismatch(make, correlation: float) -> None:
     assert ("residuals_autocorrelated" in codes(d.warnings)) == (correlation > 0.0)
 
 
+@pytest.mark.long
 def test_what_is_there_is_still_found_and_a_new_reading_scatters_as_one(make) -> None:
     friction = 0.1 + 0.02 * np.exp(-TIME / 120.0)
     d = answer(make, friction * (1.0 + 0.01 * lasting_noise(0.8, 4)))

@@ -42,6 +42,7 @@ def test_each_further_effect_is_less_probable_beforehand() -> None:
     assert len(priors(0)) == len(weights)
 
 
+@pytest.mark.long
 def test_a_third_effect_is_tried_where_two_leave_something_over_and_not_where_they_do_not() -> None:
     p = problem(relative=0.004)
     null_fit = map_fit(p, NOTHING, np.zeros(p.size(NOTHING)))

@@ -68,6 +68,7 @@ def test_a_mismatch_of_the_film_is_taken_for_one() -> None:
     assert found.discrepancy.best.modulates == "film_thickness"
 
 
+@pytest.mark.long
 def test_a_mismatch_of_two_conditions_is_taken_for_one_of_two() -> None:
     """Readings above the base only where torque is low and oil is cold, at any speed and on any surface."""
     p = problem(seed=4)

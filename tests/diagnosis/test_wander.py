@@ -46,6 +46,7 @@ def test_wandering_noise_is_no_event(tmp_path, seed):
     assert {"residuals_drift", "residuals_autocorrelated", "scatter_above_stated"} & set(codes(d.warnings))
 
 
+@pytest.mark.long
 def test_noise_that_is_seen_to_wander_is_told_as_that(wandering):
     assert wandering.posterior.verdict == NOTHING
     assert wandering.search.problem.correlated_error.size >= 1.0

@@ -97,6 +97,7 @@ def test_film_with_the_sds_of_the_rig_alone_loses_film_at_speed_too(typed_in, tm
     assert d.outlier_runs == [21]
 
 
+@pytest.mark.long
 def test_film_whose_noise_nobody_tells_loses_film_at_speed_too(typed_in, tmp_path):
     folder = Path(shutil.copytree(typed_in / "ehd_film_31C_50N", tmp_path / "case"))
     system = (folder / "system.toml").read_text(encoding="utf-8")
@@ -162,6 +163,7 @@ def test_greases_within_the_scatter_of_their_tests_show_nothing(typed, sample):
     assert tied(d)[0] == ["none"]
 
 
+@pytest.mark.long
 def test_oleic_acid_in_oils_is_resolved(typed):
     d = typed("friction_modifier_oils")
     assert d.test.detected
@@ -169,6 +171,7 @@ def test_oleic_acid_in_oils_is_resolved(typed):
     assert "vary irregularly" in said(d)
 
 
+@pytest.mark.long
 def test_films_that_step_with_the_order_are_the_instrument(filed):
     d = filed("ehd_film_oil_b_100C")
     assert tied(d)[0] == ["fringe_step"]
@@ -212,6 +215,7 @@ def test_a_wandering_state_is_said_to_be_a_form_and_no_cause(filed):
     assert "rejected (probability below 0.01 each): friction run in" in text
 
 
+@pytest.mark.long
 def test_rheometer_sample_changes_with_its_history_from_an_unknown_cause(filed):
     d = filed("oil_viscosity_temperature_cycle")
     assert tied(d)[0] == ["viscosity_drift"]

@@ -73,6 +73,7 @@ def test_films_of_another_film_law_lack_nothing(make, oil):
     assert not d.test.detected
 
 
+@pytest.mark.long
 def test_film_that_heating_takes_is_found_under_another_film_law(make):
     d = diagnose_case(make(unnamed(), films("cold", heated=True)).folder)
     assert list(d.posterior.verdict.ids) == ["inlet_shear_heating"]

@@ -81,6 +81,7 @@ def test_what_changes_at_one_moment_is_told_with_its_run(make):
     assert f"Look up what was done to the rig or the sample at run {run:g}," in told(found)
 
 
+@pytest.mark.long
 def test_a_sample_that_was_changed_is_no_drift(make):
     """Viscosity up and down in temperature; from two thirds on another fill, 12 % thicker."""
     celsius = np.concatenate([np.linspace(30.0, 100.0, 18), np.linspace(100.0, 30.0, 18)])
@@ -213,7 +214,8 @@ def test_a_temperature_that_lags_has_caught_up_after_a_pause(make):
     )
 
 
-@pytest.mark.parametrize("scatter", [pytest.param(1.0, marks=pytest.mark.long), 4.0])
+@pytest.mark.long
+@pytest.mark.parametrize("scatter", [1.0, 4.0])
 def test_levels_left_out_are_those_of_the_condition_that_was_varied(make, scatter):
     """Seven films over nine times the speed; the load is measured and jitters by a few per cent or more."""
     rng = np.random.default_rng(2)
@@ -230,6 +232,7 @@ def test_levels_left_out_are_those_of_the_condition_that_was_varied(make, scatte
     assert "speed" in found.heldout.split
 
 
+@pytest.mark.long
 def test_a_film_that_rolls_is_not_swept_in_its_sliding(make):
     """It is measured and jitters about zero, so its values are no levels to leave out."""
     rng = np.random.default_rng(2)

@@ -50,6 +50,7 @@ def test_noise_of_readings_through_zero_is_told_from_repeats(make):
     assert not found.test.detected
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("times", "verdict"), [(2.0, NOTHING), (9.0, DISCREPANCY)])
 def test_scatter_far_beyond_what_is_stated_is_not_called_noise(make, times, verdict):
     friction = noisy(np.full(TIME.size, 0.1), 0.01 * times, seed=8)
@@ -70,6 +71,7 @@ def test_a_condition_that_is_cycled_makes_no_wave(make):
     assert not found.search.discrepancy.best.waves
 
 
+@pytest.mark.long
 def test_a_wave_is_not_foretold_far_beyond_its_record(make):
     case = make(*hunting(12.0, 0.1))
     wanted = case.folder / "later.csv"

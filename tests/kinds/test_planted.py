@@ -260,6 +260,7 @@ def planted_roelands():
     }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("plant", "holds"), [(planted_roelands, True), (planted_pressure_law, False)])
 def test_the_answer_says_whether_roelands_law_would_do(make, plant, holds):
     found = diagnose_case(make(*plant()).folder)
@@ -373,6 +374,7 @@ def test_grease_that_cools_after_walther_needs_no_other_effect(make):
     assert diagnose_case(make(*planted_grease()).folder).posterior.verdict == Explanation.of("grease_temperature")
 
 
+@pytest.mark.long
 def test_an_unnamed_oil_that_cools_after_vogel_is_no_offset_of_the_viscometer(make):
     """Divergence at -120 degC, as fits of engine oils have it; through 67 and 9.5 mm2/s at 40 and 100 degC."""
     celsius = np.repeat(np.linspace(0.0, 100.0, 11), 2)

@@ -137,6 +137,7 @@ def log_residual(case, *ids, held=None):
     return float(np.std(np.log(case.recordings[case.quantity] / prediction)))
 
 
+@pytest.mark.long
 def test_viscosity_under_pressure_needs_a_law_that_bends_twice(typed_in):
     case = read_case(typed_in / "lubricant_viscosity_vs_pressure")
     assert log_residual(case) > 0.18

@@ -105,6 +105,7 @@ def test_bands_are_shaded(write_study):
         assert panel.collections[0].get_paths()[0].vertices[:, 1].max() == pytest.approx(ends.max())
 
 
+@pytest.mark.long
 def test_the_command_draws_them_on_request_with_text_as_text(write_study, tmp_path, capsys):
     """Every figure of the command in two formats, those of the paper among them."""
     few = {"conditions__oil_temperature_C": [60], "conditions__torque_Nm": [50], "surfaces__mid": None}

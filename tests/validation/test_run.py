@@ -68,6 +68,7 @@ def test_baselines_answer_in_the_form_of_the_diagnosis(dealt, tmp_path, name):
     assert predicted < 3 * calibrated + 3
 
 
+@pytest.mark.long
 def test_the_oracle_names_what_is_clearly_hidden(dealt, tmp_path):
     clear = [folder for folder in dealt if read_truth(folder).visibility > 12]
     folder = next(folder for folder in clear if read_truth(folder).group == "single")
