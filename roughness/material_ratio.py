@@ -78,7 +78,7 @@ def core_parameters(profile: Profile, *, method: str = "least squares") -> CoreP
     ``least squares``: the full curve and the least-squares line over the flattest 40 %, as the standard
     says. ``class levels``: the curve counted at 100 equal levels and the secant of those 40 %, as some
     instruments do. They differ by up to 8 %. Rpk and Rvk are the triangles of equal area. The curve is one of the
-    whole profile; :func:`core_profile` cuts the evaluation length of the standard.
+    whole profile; ``core_profile`` cuts the evaluation length of the standard.
     """
     if method not in CORE_METHODS:
         raise InputError(f"must be known; {nearest(method, CORE_METHODS)}", where="Rk method", value=method)
