@@ -185,6 +185,9 @@ def deliver(result: Result, to: Delivery, *, page: Page | None = None, written: 
     tables_written()
     drawn = not how.figures or _drawn(result, to, page)
     others = sorted(set(as_left(folder)) - to.written)
+    if WORKBOOK in others:  # its sheets are tables of an earlier run
+        others.remove(WORKBOOK)
+        (folder / WORKBOOK).unlink()
     if others:
         note(f"of an earlier run, in {folder}: {listed(others)}")
     for line in result.lines:

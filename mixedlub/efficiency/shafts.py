@@ -146,7 +146,7 @@ def _shafts(stages: Mapping[str, Stage], pairs: Mapping[str, GearPair]) -> Itera
             rule = (
                 f"no bearing carries the force on the {lacks.side} of stage {lacks.stage!r}, on the shaft of the "
                 f"{has.side} of {has.stage!r}: give position_mm to the bearings of that shaft and the table "
-                f"stages.{after.stage}.shared_shaft, or list bearings with shares in both stages"
+                f"stages.{after.stage}.shared_shaft, or list bearings in both stages if two shafts are coupled there"
             )
             raise InputError(rule, where=lacks.shaft)
         yield [before]

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mixedlub.laws import oil
+from profiles.errors import InputError
 
 LINEAR, ROELANDS, GOLD = "linear", "roelands", "gold"
 """Extensions of the pressure-viscosity coefficient from its two values to other temperatures."""
@@ -105,6 +106,11 @@ class Lubricant:
     def inputs(self, temperature: np.ndarray) -> dict[str, np.ndarray | float]:
         """Oil inputs of the chain at a temperature (K), by glossary name."""
         coefficient = self.pressure_coefficient(temperature)
+        if np.any(coefficient <= 0.0):
+            hottest = float(np.max(temperature)) - oil.ZERO_CELSIUS
+            rule = f"the straight line through both values is below zero at {hottest:g} °C; give values on both sides of "
+            rule += "the temperatures of use, or known_pressure_viscosity, one value that is carried to others"
+            raise InputError(rule, where="lubricant.pressure_viscosity_per_GPa")
         viscosity, known = self.viscosity(temperature), self.viscosity(np.array(self.temperature))
         return {
             "viscosity": viscosity,

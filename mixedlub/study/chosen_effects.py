@@ -11,11 +11,14 @@ from mixedlub.chain.model import Parameters, available
 from mixedlub.chain.slots import SLIDING_POWER, STEPS
 from mixedlub.effects import LAW, find, known_effects, known_in
 from mixedlub.schema.findings import finding, report
+from mixedlub.schema.system_file import Gears, LoadSharing
 from mixedlub.study.heat import check_exponent
 from mixedlub.study.options import study_chain
 from mixedlub.study.schema import Options, StudyFile
 from profiles.errors import InputError
 
+TEETH = "load sharing of the teeth"
+"""Step that the section of the gears chooses too."""
 AREA_ALONE = ("balance", "asperities", "mixture", "heights")
 """Options that must have their defaults with an effect on the contact area, because it leaves the asperity load
 unchanged."""
@@ -27,6 +30,7 @@ def chosen_effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Ef
     for e in find(sorted(file.effects), "effects"):
         _refuse_ignored(e, file.options)
         _refuse_second_law(e, file.options)
+        _refuse_stated_teeth(e, file.gears.load_sharing)
     known = known_effects(file.effects, "gear_pair", study_chain(file.options), tuple(inputs), "power_loss")
     for effect, name in known.sds:
         raise InputError("a study has no uncertainty; leave it out", where=f"effects.{effect}.{name}_sd")
@@ -63,6 +67,17 @@ def _refuse_second_law(e: Effect, options: Options) -> None:
         if value != getattr(default, name):
             rule = f'and options.{name} = "{value}" are two laws of one step, the {e.replaces}; leave one of them out'
             raise InputError(rule, where=f"effects.{e.id}")
+
+
+def _refuse_stated_teeth(e: Effect, sharing: LoadSharing) -> None:
+    """Raise an error for an effect on the load sharing that the gears state already."""
+    fields = type(sharing).model_fields
+    stated = [key for key in fields if key.startswith(f"{e.id}_") and getattr(sharing, key) != fields[key].default]
+    if e.replaces == TEETH and sharing.chosen is not Gears.model_fields["load_sharing"].default.chosen:
+        stated.append(sharing.chosen.chosen_by or "model")
+    if stated:
+        rule = f"and gears.load_sharing.{stated[0]} state the same part of the load sharing twice; leave one of them out"
+        raise InputError(rule, where=f"effects.{e.id}")
 
 
 def _tell_defaults(e: Effect, given: Mapping[str, float | str], values: Mapping[str, float]) -> None:

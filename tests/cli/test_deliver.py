@@ -148,6 +148,8 @@ def test_a_workbook_has_a_sheet_a_table_with_units_and_frozen_rows(gears):
     assert {path.stem for path in Path("o").glob("*.csv")} | {"columns"} == set(book.sheetnames)
     meanings = {(row[0], row[1]): row[3] for row in book["columns"].iter_rows(min_row=2, values_only=True)}
     assert meanings["summary", "torque_Nm"] == "torque on the pinion"
+    assert main(["gear", str(gears), "--out", "o", "--no-figures"]) == 0
+    assert not Path("o/results.xlsx").exists()
 
 
 @pytest.mark.parametrize("options", [(), ("--csv-style", "german")])

@@ -121,6 +121,23 @@ def test_both_keys_are_named_for_each_step(loss: Any, effect: str, options: dict
     assert f"options.{option} = " in error.value.rule
 
 
+@pytest.mark.parametrize(
+    ("effect", "stated"),
+    [
+        ("load_sharing_law", {}),
+        ("tip_relief", {"tip_relief_um": [15, 15], "relief_length_mm": [2, 2]}),
+        ("misalignment", {"misalignment_um": 20.0}),
+    ],
+)
+def test_the_gears_and_an_effect_never_state_a_load_sharing_twice(effect: str, stated: dict[str, Any]) -> None:
+    teeth = {"teeth": (17, 26), "normal_module_mm": 4.2333, "pressure_angle_deg": 22.5, "face_width_mm": 14.0}
+    condition = {"torque_Nm": 100.0, "speed_rpm": 1500.0, "oil_temperature_C": 60.0}
+    pair = ml.gear_pair(**teeth, load_sharing={"model": "ldp", **stated})
+    ground = ml.surface("shipped:0258", cutoff_mm=0.8)
+    with pytest.raises(InputError, match=rf"effects\.{effect}: and gears\.load_sharing\."):
+        ml.power_loss(pair, ml.oil("mineral"), ground, effects={effect: {}}, **condition)
+
+
 def test_the_stage_of_a_gearbox_holds_one_law(tmp_path: Path) -> None:
     text = EXAMPLE.read_text(encoding="utf-8")
     for table, line in (("options", 'film = "moes"'), ("effects", 'film_law = { law = "Moes" }')):
