@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -41,11 +41,11 @@ class Origin:
     def check_folder(self, folder: Path, names: Collection[str], what: str) -> str:
         """Raise an error for a folder with files of another origin; return a note for an earlier state of this input.
 
-        ``names``: files of a result. ``what``: kind of input as text.
+        ``names``: files and folders of a result. ``what``: kind of input as text.
         """
         found = _read(folder)
         marks = found.get("files", {})
-        paths = {name: folder / name for name in (*names, *marks)}
+        paths = {name: folder / name for name in (*_files(folder, names), *marks)}
         there = [name for name, path in paths.items() if path.exists() and not is_same(path, self.source)]
         if not there:
             return ""
@@ -111,6 +111,13 @@ def as_left(folder: Path) -> dict[str, str]:
 def is_same(path: Path, other: Path) -> bool:
     """Whether two paths lead to the same existing file."""
     return path.exists() and other.exists() and path.samefile(other)
+
+
+def _files(folder: Path, names: Collection[str]) -> Iterator[str]:
+    """Names of files, those in named folders included."""
+    for name in names:
+        inside = (path for path in (folder / name).rglob("*") if path.is_file())
+        yield from (path.relative_to(folder).as_posix() for path in inside) if (folder / name).is_dir() else (name,)
 
 
 def _read(folder: Path) -> dict[str, Any]:

@@ -93,6 +93,16 @@ def test_an_evaluation_replaces_no_file_made_by_hand(method, tmp_path, monkeypat
     assert is_refused(["evaluate", method, f"given/{method}.toml"], table, capsys)
 
 
+def test_an_evaluation_with_a_case_runs_again(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "calorimetric", "--out", "."]) == 0
+    command = ["evaluate", "calorimetric", "calorimetric.toml", "--out", "o", "--no-figures"]
+    assert [main(command), main(command)] == [0, 0]
+    Path("o/case/system.toml").write_text("mine", encoding="utf-8")
+    assert main(command) == 2
+    assert "case/system.toml" in capsys.readouterr().err
+
+
 def test_a_result_is_replaced_by_its_own_input_alone(gears, capsys):
     assert main(["gear", str(gears), "--out", "o", "--no-figures"]) == 0
     assert main(["gear", str(gears), "--out", "o", "--no-figures"]) == 0
