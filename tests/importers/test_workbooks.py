@@ -121,6 +121,19 @@ def test_numbers_stored_as_text_are_read_and_said(book, tmp_path):
     assert "stored as text" in said
 
 
+@pytest.mark.parametrize(("cell", "speed"), [("1.500", 1500.0), ("1.500.000", 1.5e6), ("1.500,5", 1500.5)])
+def test_a_point_in_a_text_beside_decimal_commas_parts_thousands(book, tmp_path, cell, speed):
+    texts = [[str(100 * i), f"0,{i}5"] for i in range(1, 6)]
+    taken, _ = speeds(book(Data=[HEAD, *texts, [cell, "0,9"]]), tmp_path)
+    assert taken == [*ALL[:5], speed]
+
+
+def test_a_column_of_decimal_points_keeps_them_beside_decimal_commas(book, tmp_path):
+    texts = [[f"{i}.25", f"0,{i}5"] for i in range(1, 6)]
+    taken, _ = speeds(book(Data=[HEAD, *texts, ["6.125", "0,9"]]), tmp_path)
+    assert taken == [1.25, 2.25, 3.25, 4.25, 5.25, 6.125]
+
+
 def test_one_text_with_a_decimal_comma_among_numbers_is_read(changed, tmp_path):
     def as_text(made):
         made["Data"]["B3"] = "0,7"
