@@ -1,9 +1,12 @@
 """Workbooks as people leave them: hidden sheets and rows, means below the table, errors, numbers stored as text."""
 
+import re
+
 import openpyxl
 import pytest
 
 from mixedlub.case.folder import read_case
+from mixedlub.importers.odd_rows import without_summaries
 from mixedlub.importers.wizard import run
 from profiles.errors import InputError
 
@@ -98,6 +101,18 @@ def test_rows_of_means_are_no_readings(changed, tmp_path, label, gap):
     assert [speed for _, speed, _ in rows] == ALL
     assert repr(label) in said
     assert f"line {8 + gap}" in said
+
+
+LABELS = """Max,Min,n,N,CV %,RMS,MW,Mittelwerte,Std. Abw.,Std.-Abw.,Stdev.S,moyenne,Gesamtmittelwert
+Mittelwert 1-24,Mean of all,total,Summe,Mean values:,s.d.,St. Dev."""
+
+
+def test_rows_labelled_in_many_ways_summarise_others():
+    readings = [(i, [str(i), "0.5", "N"]) for i in range(1, 30)]
+    kept, _ = without_summaries(
+        [*readings, *((50 + i, [label, "7", ""]) for i, label in enumerate(re.split("[,\n]", LABELS)))]
+    )
+    assert kept == readings
 
 
 def test_a_mean_amid_the_rows_is_no_reading(book, tmp_path):
