@@ -22,6 +22,10 @@ _COUNT_LINES = 3
 """First lines of numbers searched for a count of the rows."""
 _FEWEST_COUNTED = 10
 """Fewest rows below a count: fewer rows may equal a height by chance."""
+_RUN = 4
+"""Fewest lines of numbers above an empty line that parts two blocks: a count and its length are fewer."""
+_FEW = 10
+"""Most lines of results below an empty line."""
 NO_NUMBERS = "no column of numbers found in the text"
 
 
@@ -144,7 +148,7 @@ def table(text: str, where: str) -> Table:
     start = next((i for i in range(min(len(lines), 2000)) if _starts_numbers(lines, i)), None)
     if start is None:
         raise InputError(NO_NUMBERS, where=where)
-    end = _end_of_numbers(lines, start)
+    end = _end_of_numbers(lines, start, where)
     counted = _counted(lines[:end], start)
     first = counted.line if counted else start
     body = lines[first:end]
@@ -159,14 +163,28 @@ def table(text: str, where: str) -> Table:
     return Table(tuple(lines[:first]), columns, delimiter, _quantum(sample, delimiter), counted, footer, below + 1)
 
 
-def _end_of_numbers(lines: list[str], start: int) -> int:
-    """Number of lines before those at the end that begin with a word, as results of the instrument do."""
+def _end_of_numbers(lines: list[str], start: int, where: str) -> int:
+    """Number of lines before the results of the instrument: words at the end, or a few lines below an empty line."""
     end = len(lines)
-    while end > start and (not (line := lines[end - 1].strip()) or not (line[0] in "+-.,;*" or line[0].isdigit())):
-        if line and _ABSENT.match(re.split(r"[,;\s]", line)[0]):
-            break
+    while end > start and _is_below(lines[end - 1]):
         end -= 1
-    return end
+    blank = [not line.strip(" \t,;") for line in lines[start:end]]
+    gap = next((i for i in range(_RUN, len(blank)) if blank[i] and not any(blank[i - _RUN : i])), None)
+    if gap is None:
+        return end
+    if blank[gap:].count(False) <= min(_FEW, blank[:gap].count(False) // 4):
+        return start + gap
+    line = start + gap + blank[gap:].index(False)
+    rule = "a second block begins here, below an empty line: save each as a file of its own, or delete the empty line"
+    raise InputError(rule, where=f"{where}: line {line + 1}", value=lines[line].strip())
+
+
+def _is_below(line: str) -> bool:
+    """Whether a line is empty or begins with a word."""
+    line = line.strip()
+    if line and _ABSENT.match(re.split(r"[,;\s]", line)[0]):
+        return False
+    return not line or not (line[0] in "+-.,;*" or line[0].isdigit())
 
 
 def _counted(lines: list[str], start: int) -> Counted | None:

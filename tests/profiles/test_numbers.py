@@ -113,6 +113,20 @@ def test_words_below_the_heights_are_said(tmp_path):
     assert "stated" not in trace.origin
 
 
+@pytest.mark.parametrize("foot", ["\n0.290\n0.351\n1.47\n", "\nRa 0.29\n\n0.351\n"])
+def test_numbers_below_an_empty_line_are_no_heights(tmp_path, foot):
+    trace = read(written(tmp_path, column(Z, foot=foot)), unit="um", spacing="0.5 um")
+    assert trace.heights.size == COUNT
+    assert any(f"from line {COUNT + 2} on" in step for step in trace.steps)
+
+
+def test_two_traces_parted_by_an_empty_line_are_refused(tmp_path):
+    with pytest.raises(InputError, match=f"line {COUNT + 2}: .*save each"):
+        read(written(tmp_path, column(Z) + "\n" + column(Z)), unit="um", spacing="0.5 um")
+    doubled = read(written(tmp_path, column(Z).replace("\n", "\n\n")), unit="um", spacing="0.5 um")
+    assert doubled.heights.size == COUNT
+
+
 def test_words_between_the_heights_are_no_end(tmp_path):
     text = "x_um,z_um\n" + rows(X[:50], Z[:50], ",") + "Ra,0.3\n" + rows(X[50:60], Z[50:60], ",")
     with pytest.raises(InputError, match="line 52: 'Ra': not a number"):
