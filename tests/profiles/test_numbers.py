@@ -41,6 +41,16 @@ def test_a_step_that_is_told_wins_over_length_and_count(tmp_path):
     assert "0.5 um" in told.origin["spacing_overruled"]
 
 
+@pytest.mark.parametrize("units", ["", "unit: nm\n", "x unit: mm\n"])
+def test_one_unit_that_is_told_is_not_that_of_the_length(tmp_path, units):
+    file = written(tmp_path, column(Z, f"{units}2.0\n{COUNT}\n"))
+    trace = read(file, unit="um")
+    assert (trace.spacing, trace.heights[1]) == pytest.approx((0.5e-6, Z[1] * 1e-6), rel=1e-4)
+    told = read(file, unit="um", spacing="0.4 um")
+    assert told.spacing == 0.4e-6
+    assert not any(step.startswith("step ") for step in told.steps)
+
+
 def test_a_count_without_a_length_needs_the_step(tmp_path):
     file = written(tmp_path, column(Z, f"{COUNT}\n"))
     with pytest.raises(InputError, match="needs its step"):
