@@ -22,6 +22,8 @@ _COUNT_LINES = 3
 """First lines of numbers searched for a count of the rows."""
 _FEWEST_COUNTED = 10
 """Fewest rows below a count: fewer rows may equal a height by chance."""
+_FAR = 20.0
+"""Departures of whole-number heights from their median beyond which a whole number above them is a count."""
 _RUN = 4
 """Fewest lines of numbers above an empty line that parts two blocks: a count and its length are fewer."""
 _FEW = 10
@@ -198,7 +200,7 @@ def _counted(lines: list[str], start: int) -> Counted | None:
             below = [line for line in lines[place + 1 :] if line.strip()]
             others = above + [_value(other) for other in words if other is not word]
             exact = int(word) == len(below) and (len(words) == 1 or _NUMBER.match(below[0].strip()))
-            if len(below) >= _FEWEST_COUNTED and (exact or (len(words) == 1 and _is_no_height(word, below[:_SAMPLE]))):
+            if len(below) >= _FEWEST_COUNTED and (exact or (len(words) == 1 and _is_no_height(word, below))):
                 return Counted(int(word), place + 1, others[0] if len(others) == 1 else None)
         above += map(_value, words)
     return None
@@ -209,16 +211,21 @@ def _value(word: str) -> float:
 
 
 def _is_no_height(word: str, below: list[str]) -> bool:
-    """Whether a whole number stands above rows of two numbers, or of decimals that all lie far off it."""
+    """Whether a whole number stands above rows of two numbers, or of heights that all lie far off it."""
     if int(word) < _FEWEST_COUNTED:
         return False
-    if all(_is_numbers(line) and not _NUMBER.match(line.strip()) for line in below):
+    sample = below[:_SAMPLE]
+    if all(_is_numbers(line) and not _NUMBER.match(line.strip()) for line in sample):
         return True
-    heights = [_value(line.strip()) for line in below if _NUMBER.match(line.strip())]
-    decimals = sum("." in line or "," in line for line in below)
-    if len(heights) < len(below) or decimals < 0.9 * len(below):
+    heights = [_value(line.strip()) for line in sample if _NUMBER.match(line.strip())]
+    decimals = sum("." in line or "," in line for line in sample)
+    if len(heights) < len(sample) or 0 < decimals < 0.9 * len(sample):
         return False
-    return min(abs(int(word) - height) for height in heights) > 10.0 * (max(heights) - min(heights))
+    if decimals:
+        return min(abs(int(word) - height) for height in heights) > 10.0 * (max(heights) - min(heights))
+    heights = [_value(line.strip()) for line in below if _NUMBER.match(line.strip())]
+    middle = float(np.median(heights))
+    return abs(int(word) - middle) > _FAR * max(1.0, *(abs(height - middle) for height in heights))
 
 
 def _parse(body: list[str], delimiter: str | None, comma: bool, width: int, where: str, first: int) -> np.ndarray:

@@ -70,6 +70,14 @@ def test_a_count_of_other_than_the_heights_below_is_said(tmp_path, kept, pairs):
     assert str(kept) in said
 
 
+@pytest.mark.parametrize("heights", [np.arange(500) % 7 - 3, np.zeros(500)])
+def test_a_count_above_fewer_whole_heights_is_said(tmp_path, heights):
+    text = "800\n" + "".join(f"{z:.0f}\n" for z in heights)
+    trace = read(written(tmp_path, text), unit="nm", spacing="0.5 um")
+    assert trace.heights.size == 500
+    assert "cut short" in trace.origin["count_differs"]
+
+
 def test_a_count_named_in_the_heading_is_held_against_the_heights(tmp_path):
     text = "Points: {}\nx_um,z_um\n" + rows(X[:50], Z[:50], ",").replace("{", "{{")
     assert "count_differs" in read(written(tmp_path, text.format(60))).origin
