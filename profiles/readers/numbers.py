@@ -182,9 +182,12 @@ def _end_of_numbers(lines: list[str], start: int, where: str) -> int:
 
 
 def _is_below(line: str) -> bool:
-    """Whether a line is empty or begins with a word."""
+    """Whether a line is empty, begins with a word, or has one among its cells."""
     line = line.strip()
-    if line and _ABSENT.match(re.split(r"[,;\s]", line)[0]):
+    cells = [cell for cell in re.split(r"[,;\s]+", line) if cell]
+    if any(re.search(r"[^\W\d_]{2}", cell) and not _ABSENT.match(cell) for cell in cells):
+        return True
+    if cells and _ABSENT.match(cells[0]):
         return False
     return not line or not (line[0] in "+-.,;*" or line[0].isdigit())
 

@@ -131,6 +131,13 @@ def test_words_below_the_heights_are_said(tmp_path):
     assert "stated" not in trace.origin
 
 
+@pytest.mark.parametrize("foot", ["1,Ra,0.290\n", "---- results ----\nRa 0.29\n", ";end\n", "2) Rz 1.4\n-Rq: 0.3\n"])
+def test_results_behind_a_mark_or_a_number_are_below_the_heights(tmp_path, foot):
+    trace = read(written(tmp_path, column(Z, foot=foot)), unit="um", spacing="0.5 um")
+    assert trace.heights.size == COUNT
+    assert any(f"from line {COUNT + 1} on" in step for step in trace.steps)
+
+
 @pytest.mark.parametrize("foot", ["\n0.290\n0.351\n1.47\n", "\nRa 0.29\n\n0.351\n"])
 def test_numbers_below_an_empty_line_are_no_heights(tmp_path, foot):
     trace = read(written(tmp_path, column(Z, foot=foot)), unit="um", spacing="0.5 um")
