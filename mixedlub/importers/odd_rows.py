@@ -55,11 +55,26 @@ def without_repeated_headers(rows: Sequence[Line]) -> tuple[list[Line], str]:
 
 
 SUMMARY = re.compile(
-    r"(?:(?:arithmetic )?mean|averages?|avg|sum|total|median|std\.?|sd|s\.d\.|st\.? ?dev|std\.? ?dev|"
-    r"standard deviation|mittelwert|mittel|durchschnitt|summe|gesamt|stabw|standardabweichung)(?: ?values?)?\.?:?",
-    re.IGNORECASE,
+    r"(?:arithmetic|grand)?mean|averages?|avg|sum|(?:grand)?total|median|max(?:imum)?|min(?:imum)?|n|count|std|sd|"
+    r"std?d?ev[sp]?|standarddeviation|cv|rsd|rms|variance|(?:gesamt)?mittel(?:werte?)?|mw|durchschnitt|"
+    r"(?:gesamt)?summe|gesamt|std?abw|standardabweichung|anzahl|moyennes?|somme|[eé]carttype"
 )
-"""Label of a row that summarises others."""
+"""Label of a row that summarises others, in small letters alone."""
+_TAIL = re.compile(r"(?:\W*(?:values?|of all\b.*|\d+ *(?:-|–|\.\.+|to|bis) *\d+))+\W*\Z")
+_LONGEST = 40
+
+
+def is_summary(cell: str) -> bool:
+    """Whether a cell labels a row that summarises others, whatever its marks and the range behind it.
+
+    >>> [is_summary(cell) for cell in ("Mittelwert 1-24", "Std.-Abw.", "CV %", "Mean of all", "n")]
+    [True, True, True, True, True]
+    >>> [is_summary(cell) for cell in ("Max 3", "steel", "mean speed", "7")]
+    [False, False, False, False]
+    """
+    if not cell[:1].isalpha() or len(cell) > _LONGEST:
+        return False
+    return SUMMARY.fullmatch(re.sub(r"[\s.:%()_–-]+", "", _TAIL.sub("", cell.lower()))) is not None
 
 
 def without_summaries(rows: Sequence[Line]) -> tuple[list[Line], str]:
@@ -71,9 +86,11 @@ def without_summaries(rows: Sequence[Line]) -> tuple[list[Line], str]:
     ''
     """
     labels = {
-        number: next(label for label in map(SUMMARY.fullmatch, row) if label)[0]
+        number: label
         for number, row in rows
-        if not all(map(is_number, row)) and any(map(SUMMARY.fullmatch, row))
+        if not all(map(is_number, row))
+        # behind numbers, an "N" is a flag of a reading
+        if (label := next((c for i, c in enumerate(row) if is_summary(c) and (c[1:] or not any(row[:i]))), None))
     }
     if not labels or 2 * len(labels) > len(rows):
         return list(rows), ""

@@ -22,6 +22,12 @@ _COUNT_LINES = 3
 """First lines of numbers searched for a count of the rows."""
 _FEWEST_COUNTED = 10
 """Fewest rows below a count: fewer rows may equal a height by chance."""
+_FAR = 20.0
+"""Departures of whole-number heights from their median beyond which a whole number above them is a count."""
+_RUN = 4
+"""Fewest lines of numbers above an empty line that parts two blocks: a count and its length are fewer."""
+_FEW = 10
+"""Most lines of results below an empty line."""
 NO_NUMBERS = "no column of numbers found in the text"
 
 
@@ -144,7 +150,7 @@ def table(text: str, where: str) -> Table:
     start = next((i for i in range(min(len(lines), 2000)) if _starts_numbers(lines, i)), None)
     if start is None:
         raise InputError(NO_NUMBERS, where=where)
-    end = _end_of_numbers(lines, start)
+    end = _end_of_numbers(lines, start, where)
     counted = _counted(lines[:end], start)
     first = counted.line if counted else start
     body = lines[first:end]
@@ -159,14 +165,31 @@ def table(text: str, where: str) -> Table:
     return Table(tuple(lines[:first]), columns, delimiter, _quantum(sample, delimiter), counted, footer, below + 1)
 
 
-def _end_of_numbers(lines: list[str], start: int) -> int:
-    """Number of lines before those at the end that begin with a word, as results of the instrument do."""
+def _end_of_numbers(lines: list[str], start: int, where: str) -> int:
+    """Number of lines before the results of the instrument: words at the end, or a few lines below an empty line."""
     end = len(lines)
-    while end > start and (not (line := lines[end - 1].strip()) or not (line[0] in "+-.,;*" or line[0].isdigit())):
-        if line and _ABSENT.match(re.split(r"[,;\s]", line)[0]):
-            break
+    while end > start and _is_below(lines[end - 1]):
         end -= 1
-    return end
+    blank = [not line.strip(" \t,;") for line in lines[start:end]]
+    gap = next((i for i in range(_RUN, len(blank)) if blank[i] and not any(blank[i - _RUN : i])), None)
+    if gap is None:
+        return end
+    if blank[gap:].count(False) <= min(_FEW, blank[:gap].count(False) // 4):
+        return start + gap
+    line = start + gap + blank[gap:].index(False)
+    rule = "a second block begins here, below an empty line: save each as a file of its own, or delete the empty line"
+    raise InputError(rule, where=f"{where}: line {line + 1}", value=lines[line].strip())
+
+
+def _is_below(line: str) -> bool:
+    """Whether a line is empty, begins with a word, or has one among its cells."""
+    line = line.strip()
+    cells = [cell for cell in re.split(r"[,;\s]+", line) if cell]
+    if any(re.search(r"[^\W\d_]{2}", cell) and not _ABSENT.match(cell) for cell in cells):
+        return True
+    if cells and _ABSENT.match(cells[0]):
+        return False
+    return not line or not (line[0] in "+-.,;*" or line[0].isdigit())
 
 
 def _counted(lines: list[str], start: int) -> Counted | None:
@@ -180,7 +203,7 @@ def _counted(lines: list[str], start: int) -> Counted | None:
             below = [line for line in lines[place + 1 :] if line.strip()]
             others = above + [_value(other) for other in words if other is not word]
             exact = int(word) == len(below) and (len(words) == 1 or _NUMBER.match(below[0].strip()))
-            if len(below) >= _FEWEST_COUNTED and (exact or (len(words) == 1 and _is_no_height(word, below[:_SAMPLE]))):
+            if len(below) >= _FEWEST_COUNTED and (exact or (len(words) == 1 and _is_no_height(word, below))):
                 return Counted(int(word), place + 1, others[0] if len(others) == 1 else None)
         above += map(_value, words)
     return None
@@ -191,16 +214,21 @@ def _value(word: str) -> float:
 
 
 def _is_no_height(word: str, below: list[str]) -> bool:
-    """Whether a whole number stands above rows of two numbers, or of decimals that all lie far off it."""
+    """Whether a whole number stands above rows of two numbers, or of heights that all lie far off it."""
     if int(word) < _FEWEST_COUNTED:
         return False
-    if all(_is_numbers(line) and not _NUMBER.match(line.strip()) for line in below):
+    sample = below[:_SAMPLE]
+    if all(_is_numbers(line) and not _NUMBER.match(line.strip()) for line in sample):
         return True
-    heights = [_value(line.strip()) for line in below if _NUMBER.match(line.strip())]
-    decimals = sum("." in line or "," in line for line in below)
-    if len(heights) < len(below) or decimals < 0.9 * len(below):
+    heights = [_value(line.strip()) for line in sample if _NUMBER.match(line.strip())]
+    decimals = sum("." in line or "," in line for line in sample)
+    if len(heights) < len(sample) or 0 < decimals < 0.9 * len(sample):
         return False
-    return min(abs(int(word) - height) for height in heights) > 10.0 * (max(heights) - min(heights))
+    if decimals:
+        return min(abs(int(word) - height) for height in heights) > 10.0 * (max(heights) - min(heights))
+    heights = [_value(line.strip()) for line in below if _NUMBER.match(line.strip())]
+    middle = float(np.median(heights))
+    return abs(int(word) - middle) > _FAR * max(1.0, *(abs(height - middle) for height in heights))
 
 
 def _parse(body: list[str], delimiter: str | None, comma: bool, width: int, where: str, first: int) -> np.ndarray:

@@ -88,6 +88,9 @@ def doubt(step: float, heights: np.ndarray) -> str | None:
 def typical_slope(step: float, heights: np.ndarray) -> float:
     """1.48 times the median of \\|dz\\|/dx, the sigma of Gaussian slopes; the mean where most heights repeat."""
     rises = np.abs(np.diff(heights))
+    rises = rises[np.isfinite(rises)]
+    if not rises.size:
+        return 0.0
     return (1.4826 * float(np.median(rises)) or float(rises.mean())) / step
 
 

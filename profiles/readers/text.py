@@ -93,13 +93,16 @@ def _read_heights(
     """One column of heights; the step comes from a setting, the caller, or a length over a count."""
     heights, present = content.columns[0], np.isfinite(content.columns[0])
     step = _header_spacing(settings, source.where)
+    if written[0] == written[1]:  # one unit is that of the heights
+        written = next((settings[name] for name in _POSITION_UNIT_NAMES[:2] if name in settings), None), written[1]
     if step is None and content.counted and content.counted.length and (written[0] or source.spacing is None):
         own = content.counted.length / content.counted.count
         units = inferred_units(own, bridged(heights, present, source.where), source.where, written)
         said = f"step {own:.6g} {units[0]}: the length {content.counted.length:g} over the count in"
         if units != written:
             origin["units_inferred"] = inferred_note(written, units)
-        return Sampled(heights, present, own), units, (f"{said} line {content.counted.line}",)
+        notes = () if source.spacing else (f"{said} line {content.counted.line}",)
+        return Sampled(heights, present, own), units, notes
     step = step or source.spacing
     if step is None:
         raise InputError(

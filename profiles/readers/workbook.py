@@ -23,6 +23,8 @@ _NUMBER = re.compile(
 )
 _THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d*)?")
 """A number with commas as thousands separators."""
+_POINTED = re.compile(r"[-+]?[1-9]\d{0,2}(?:\.\d{3})+")
+"""A number with points that may be thousands separators."""
 LAST_ROW, LAST_COLUMN = 1_048_576, 16_384
 """Size of a sheet in the format."""
 
@@ -117,8 +119,13 @@ class _Rows:
         parser.Parse(xml, True)
         texts = [self.cells[row][column] for row, column in self.texts]
         if any("," in text and not _THOUSANDS.fullmatch(text) for text in texts):
-            for (row, column), text in zip(self.texts, texts, strict=True):
-                self.cells[row][column] = text.replace(".", "").replace(",", ".") if "," in text else text
+            placed = [(row, column, text) for (row, column), text in zip(self.texts, texts, strict=True)]
+            points = {
+                column for _, column, text in placed if "." in text and "," not in text and not _POINTED.fullmatch(text)
+            }
+            for row, column, text in placed:
+                if "," in text or (_POINTED.fullmatch(text) and column not in points):
+                    self.cells[row][column] = text.replace(".", "").replace(",", ".")
         width = max(map(len, self.cells.values()), default=0)
         empty = [""] * width
         table = io.StringIO()

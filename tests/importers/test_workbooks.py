@@ -1,9 +1,12 @@
 """Workbooks as people leave them: hidden sheets and rows, means below the table, errors, numbers stored as text."""
 
+import re
+
 import openpyxl
 import pytest
 
 from mixedlub.case.folder import read_case
+from mixedlub.importers.odd_rows import without_summaries
 from mixedlub.importers.wizard import run
 from profiles.errors import InputError
 
@@ -100,6 +103,18 @@ def test_rows_of_means_are_no_readings(changed, tmp_path, label, gap):
     assert f"line {8 + gap}" in said
 
 
+LABELS = """Max,Min,n,N,CV %,RMS,MW,Mittelwerte,Std. Abw.,Std.-Abw.,Stdev.S,moyenne,Gesamtmittelwert
+Mittelwert 1-24,Mean of all,total,Summe,Mean values:,s.d.,St. Dev."""
+
+
+def test_rows_labelled_in_many_ways_summarise_others():
+    readings = [(i, [str(i), "0.5", "N"]) for i in range(1, 30)]
+    kept, _ = without_summaries(
+        [*readings, *((50 + i, [label, "7", ""]) for i, label in enumerate(re.split("[,\n]", LABELS)))]
+    )
+    assert kept == readings
+
+
 def test_a_mean_amid_the_rows_is_no_reading(book, tmp_path):
     numbered = [[i, *row] for i, row in enumerate(ROWS, 1)]
     path = book(Data=[["Nr.", *HEAD], *numbered[:3], ["Mean", 200, 0.7], *numbered[3:]])
@@ -119,6 +134,19 @@ def test_numbers_stored_as_text_are_read_and_said(book, tmp_path):
     assert taken == ALL
     assert "columns A, B" in said
     assert "stored as text" in said
+
+
+@pytest.mark.parametrize(("cell", "speed"), [("1.500", 1500.0), ("1.500.000", 1.5e6), ("1.500,5", 1500.5)])
+def test_a_point_in_a_text_beside_decimal_commas_parts_thousands(book, tmp_path, cell, speed):
+    texts = [[str(100 * i), f"0,{i}5"] for i in range(1, 6)]
+    taken, _ = speeds(book(Data=[HEAD, *texts, [cell, "0,9"]]), tmp_path)
+    assert taken == [*ALL[:5], speed]
+
+
+def test_a_column_of_decimal_points_keeps_them_beside_decimal_commas(book, tmp_path):
+    texts = [[f"{i}.25", f"0,{i}5"] for i in range(1, 6)]
+    taken, _ = speeds(book(Data=[HEAD, *texts, ["6.125", "0,9"]]), tmp_path)
+    assert taken == [1.25, 2.25, 3.25, 4.25, 5.25, 6.125]
 
 
 def test_one_text_with_a_decimal_comma_among_numbers_is_read(changed, tmp_path):

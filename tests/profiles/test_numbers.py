@@ -41,6 +41,16 @@ def test_a_step_that_is_told_wins_over_length_and_count(tmp_path):
     assert "0.5 um" in told.origin["spacing_overruled"]
 
 
+@pytest.mark.parametrize("units", ["", "unit: nm\n", "x unit: mm\n"])
+def test_one_unit_that_is_told_is_not_that_of_the_length(tmp_path, units):
+    file = written(tmp_path, column(Z, f"{units}2.0\n{COUNT}\n"))
+    trace = read(file, unit="um")
+    assert (trace.spacing, trace.heights[1]) == pytest.approx((0.5e-6, Z[1] * 1e-6), rel=1e-4)
+    told = read(file, unit="um", spacing="0.4 um")
+    assert told.spacing == 0.4e-6
+    assert not any(step.startswith("step ") for step in told.steps)
+
+
 def test_a_count_without_a_length_needs_the_step(tmp_path):
     file = written(tmp_path, column(Z, f"{COUNT}\n"))
     with pytest.raises(InputError, match="needs its step"):
@@ -58,6 +68,14 @@ def test_a_count_of_other_than_the_heights_below_is_said(tmp_path, kept, pairs):
     (said,) = (w for w in trace_record(trace)[1]["warnings"] if "counts" in w)
     assert str(COUNT) in said
     assert str(kept) in said
+
+
+@pytest.mark.parametrize("heights", [np.arange(500) % 7 - 3, np.zeros(500)])
+def test_a_count_above_fewer_whole_heights_is_said(tmp_path, heights):
+    text = "800\n" + "".join(f"{z:.0f}\n" for z in heights)
+    trace = read(written(tmp_path, text), unit="nm", spacing="0.5 um")
+    assert trace.heights.size == 500
+    assert "cut short" in trace.origin["count_differs"]
 
 
 def test_a_count_named_in_the_heading_is_held_against_the_heights(tmp_path):
@@ -111,6 +129,27 @@ def test_words_below_the_heights_are_said(tmp_path):
     assert trace.heights.size == COUNT
     assert any("2 lines below" in step and "left out" in step for step in trace.steps)
     assert "stated" not in trace.origin
+
+
+@pytest.mark.parametrize("foot", ["1,Ra,0.290\n", "---- results ----\nRa 0.29\n", ";end\n", "2) Rz 1.4\n-Rq: 0.3\n"])
+def test_results_behind_a_mark_or_a_number_are_below_the_heights(tmp_path, foot):
+    trace = read(written(tmp_path, column(Z, foot=foot)), unit="um", spacing="0.5 um")
+    assert trace.heights.size == COUNT
+    assert any(f"from line {COUNT + 1} on" in step for step in trace.steps)
+
+
+@pytest.mark.parametrize("foot", ["\n0.290\n0.351\n1.47\n", "\nRa 0.29\n\n0.351\n"])
+def test_numbers_below_an_empty_line_are_no_heights(tmp_path, foot):
+    trace = read(written(tmp_path, column(Z, foot=foot)), unit="um", spacing="0.5 um")
+    assert trace.heights.size == COUNT
+    assert any(f"from line {COUNT + 2} on" in step for step in trace.steps)
+
+
+def test_two_traces_parted_by_an_empty_line_are_refused(tmp_path):
+    with pytest.raises(InputError, match=f"line {COUNT + 2}: .*save each"):
+        read(written(tmp_path, column(Z) + "\n" + column(Z)), unit="um", spacing="0.5 um")
+    doubled = read(written(tmp_path, column(Z).replace("\n", "\n\n")), unit="um", spacing="0.5 um")
+    assert doubled.heights.size == COUNT
 
 
 def test_words_between_the_heights_are_no_end(tmp_path):

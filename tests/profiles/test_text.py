@@ -331,6 +331,14 @@ def test_a_missing_height_is_masked_and_bridged(tmp_path, delimiter, missing):
     assert "1 missing points bridged and masked" in profile.steps
 
 
+def test_a_missing_height_puts_no_doubt_on_the_units(tmp_path):
+    lines = rows(ALONG, SURFACE).splitlines()
+    lines[20] = f"{ALONG[20]}\tNaN"
+    trace = read(written(tmp_path, "x_um\tz_um\n" + "\n".join(lines)))
+    assert not trace.valid.all()
+    assert "units_doubtful" not in trace.origin
+
+
 def test_a_missing_height_among_heights_alone_is_masked(tmp_path):
     profile = read(written(tmp_path, "# spacing: 0.25 um\n# unit: nm\n1\n2\nnan\n4\n5\n"))
     assert profile.valid.tolist() == [True, True, False, True, True]
