@@ -15,7 +15,6 @@ release = version = installed_version()
 extensions = [
     "myst_parser",
     "sphinx.ext.autodoc",
-    "sphinx.ext.napoleon",
     "run_blocks",
     "svg_equations",
     "generated",
@@ -29,9 +28,6 @@ default_role = "code"
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 autodoc_preserve_defaults = True
-napoleon_google_docstring = False
-napoleon_use_param = False
-napoleon_use_rtype = False
 python_use_unqualified_type_names = True
 toc_object_entries_show_parents = "hide"
 nitpicky = True

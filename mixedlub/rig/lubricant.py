@@ -108,7 +108,9 @@ class Lubricant:
         coefficient = self.pressure_coefficient(temperature)
         if np.any(coefficient <= 0.0):
             hottest = float(np.max(temperature)) - oil.ZERO_CELSIUS
-            rule = f"the straight line through both values is below zero at {hottest:g} °C; give values on both sides of "
+            rule = (
+                f"the straight line through both values is below zero at {hottest:g} °C; give values on both sides of "
+            )
             rule += "the temperatures of use, or known_pressure_viscosity, one value that is carried to others"
             raise InputError(rule, where="lubricant.pressure_viscosity_per_GPa")
         viscosity, known = self.viscosity(temperature), self.viscosity(np.array(self.temperature))

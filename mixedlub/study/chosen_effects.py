@@ -76,7 +76,9 @@ def _refuse_stated_teeth(e: Effect, sharing: LoadSharing) -> None:
     if e.replaces == TEETH and sharing.chosen is not Gears.model_fields["load_sharing"].default.chosen:
         stated.append(sharing.chosen.chosen_by or "model")
     if stated:
-        rule = f"and gears.load_sharing.{stated[0]} state the same part of the load sharing twice; leave one of them out"
+        rule = (
+            f"and gears.load_sharing.{stated[0]} state the same part of the load sharing twice; leave one of them out"
+        )
         raise InputError(rule, where=f"effects.{e.id}")
 
 
