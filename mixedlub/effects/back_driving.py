@@ -35,7 +35,7 @@ from mixedlub.chain.priors import LogNormal, SignedLogNormal
     "constant stays there, a loss of the gears goes",
     kinds=("friction_map",),
     # Two statements at once, friction that grows and a difference: as improbable as a pair of effects.
-    prior_odds=0.01,
+    prior_odds=0.015,
 )
 def back_driving(
     coulomb_torque: np.ndarray, load_fraction: np.ndarray, load_sense: np.ndarray, *, growth: float, asymmetry: float

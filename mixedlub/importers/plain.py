@@ -17,7 +17,7 @@ from mixedlub.importers.dropped_columns import LEAVE
 from mixedlub.importers.input_file import InputFile
 from mixedlub.importers.kinematic import as_dynamic
 from mixedlub.importers.likeness import likely_headers, likely_kind, likeness_of_reading
-from mixedlub.importers.matching import import_keys, match, wanted
+from mixedlub.importers.matching import Match, import_keys, match, wanted
 from mixedlub.importers.one_value import constants, value_keys
 from mixedlub.importers.recognised import logarithm_doubt, refuse_unrecognised
 from mixedlub.importers.speed_from_position import SPEED_FROM, with_speed
@@ -55,58 +55,32 @@ def draft(file: InputFile, answers: Answers) -> Draft:
 
     While kind or quantity is open, the questions of the likely one are included.
     """
-    kind, quantity = answers.get("kind"), answers.get("recording.quantity")
+    kind, name = answers.get("kind"), file.name
     if kind is not None and kind not in KINDS:
         raise InputError(f"no such kind; {nearest(str(kind), KINDS)}", where="kind", value=kind)
     _refuse_unknown(kind, answers)
-    name = file.name
     sheet, selection_notes = selected_rows(file.table(_decimal(answers)), answers)
     sheet, speed_notes = with_speed(sheet, answers)
     with_ratio, left_to_answer, ratio_notes = over_load(sheet, answers)
     if kind is None:
         refuse_unrecognised(with_ratio.cells, name, answers)
     likely = kind_of(kind or likely_kind(with_ratio.cells))
-    if kind is not None and quantity is not None and quantity not in likely.quantities:
-        rule = f"a case of kind {kind!r} records {' or '.join(likely.quantities)}"
-        raise InputError(rule, where="recording.quantity", value=quantity)
-    questions: list[Question] = []
-    if kind is None:
-        questions.append(Question("kind", "Kind of recording", toml_value(likely.name), options=KINDS, offered=True))
-    if quantity is None:
-        quantity = _likely_quantity(likely, with_ratio.cells)
-        if len(likely.quantities) > 1:
-            example = toml_value(quantity)
-            among = likely.quantities
-            questions.append(Question("recording.quantity", "Recorded quantity", example, options=among, offered=True))
+    quantity, questions = _quantity(likely, with_ratio.cells, answers)
     if quantity == COEFFICIENT:
         sheet, answers = with_ratio, left_to_answer
     else:
         ratio_notes = []
-    matched = match(likely, str(quantity), sheet.cells, answers)
+    matched = match(likely, quantity, sheet.cells, answers)
     further = (*matched.questions, *contact_form(likely.name, answers), *questions_of(likely.name))
     if questions:
         return Draft(kind, None, {}, {}, (*questions, *further))
-    rules = {column.name: column for column in wanted(likely, str(quantity), answers)}
+    rules = {column.name: column for column in wanted(likely, quantity, answers)}
     needed = [h for c, h in matched.headers.items() if rules[c].dtype != "name" and not rules[c].optional_cells]
     sheet, incomplete = complete_rows(sheet, needed)
     refuse_one_surface(matched.headers, sheet.cells, name)
-    open_columns = {TIME if q.key in PACE_KEYS else q.key.rpartition(".")[2] for q in matched.questions}
-    columns = {
-        column: _values(rules[column], header, sheet, matched.units.get(column))
-        for column, header in matched.headers.items()
-        if column not in open_columns
-    }
-    count_note = ""
-    clock_notes: list[Finding] = []
-    if TIME in columns and TIME in matched.units:
-        columns[TIME], count_note = in_seconds(columns[TIME], matched.headers[TIME], matched.units[TIME], answers)
-    if TIME in columns:
-        columns[TIME], clock_notes = continued(columns[TIME], matched.headers[TIME], sheet, date_order(answers))
-    columns |= constants(likely, answers, len(sheet.lines))
-    where = f"{name}: {matched.headers.get(str(quantity), quantity)}"
-    columns, density_note = as_dynamic(columns, matched.units, answers, where)
-    readings = columns.get(str(quantity)) if likely.is_unsigned(str(quantity)) else None
-    not_positive = [] if readings is None else not_above_zero(str(quantity), readings.tolist(), sheet.lines)
+    columns, made_notes, clock_notes = _columns(likely, quantity, matched, sheet, answers)
+    readings = columns.get(quantity) if likely.is_unsigned(quantity) else None
+    not_positive = [] if readings is None else not_above_zero(quantity, readings.tolist(), sheet.lines)
     header = header_of_runs(sheet, answers)
     runs, renumbered = (None, None) if header is None else runs_of(sheet, header)
     fixed = [c for c in columns if c not in matched.headers]
@@ -117,12 +91,12 @@ def draft(file: InputFile, answers: Answers) -> Draft:
     pooled = _pooled(left, conditions, name)
     related: list[str] = []
     doubts: list[str] = []
-    if str(quantity) in columns:
-        reading = columns[str(quantity)]
+    if quantity in columns:
+        reading = columns[quantity]
         offered = {q.example: q.key for q in matched.questions}
         further = (*dropped_columns.questions(left, conditions, reading, answers, offered), *further)
-        related += dropped_columns.changing_with(left, reading, str(quantity))
-        doubts += logarithm_doubt(str(quantity), matched.headers.get(str(quantity), ""), reading)
+        related += dropped_columns.changing_with(left, reading, quantity)
+        doubts += logarithm_doubt(quantity, matched.headers.get(quantity, ""), reading)
     how_read = [
         *selection_notes,
         f"{len(taken)} of {len(sheet.cells)} columns taken: {', '.join(taken)}",
@@ -130,7 +104,7 @@ def draft(file: InputFile, answers: Answers) -> Draft:
         *([f"the same in all rows, as answered: {', '.join(fixed)}"] if fixed else []),
         *([f"{sheet.left_out} left out: no part of the table"] if sheet.left_out else []),
         *matched.notes,
-        *(note for note in (count_note, density_note) if note),
+        *made_notes,
     ]
     notes = [
         *(finding("decimal_mark_assumed", text, name) for text in sheet.notes),
@@ -147,6 +121,48 @@ def draft(file: InputFile, answers: Answers) -> Draft:
         *([read_note(renumbered)] if renumbered else []),
     ]
     return Draft(kind, quantity, columns, {}, further, tuple(notes), runs)
+
+
+def _quantity(likely: Kind, cells: Cells, answers: Answers) -> tuple[str, list[Question]]:
+    """The recorded quantity, or the likely one, and the questions on kind and quantity that are open."""
+    kind, quantity = answers.get("kind"), answers.get("recording.quantity")
+    among = likely.quantities
+    if kind is not None and quantity is not None and quantity not in among:
+        rule = f"a case of kind {kind!r} records {' or '.join(among)}"
+        raise InputError(rule, where="recording.quantity", value=quantity)
+    questions = []
+    if kind is None:
+        questions.append(Question("kind", "Kind of recording", toml_value(likely.name), options=KINDS, offered=True))
+    if quantity is not None:
+        return str(quantity), questions
+    quantity = _likely_quantity(likely, cells)
+    if len(among) > 1:
+        example = toml_value(quantity)
+        questions.append(Question("recording.quantity", "Recorded quantity", example, options=among, offered=True))
+    return quantity, questions
+
+
+def _columns(
+    kind: Kind, quantity: str, matched: Match, sheet: Sheet, answers: Answers
+) -> tuple[dict[str, np.ndarray], list[str], list[Finding]]:
+    """The columns in the units of a case, notes on columns that are made of others, and findings on the clock."""
+    rules = {column.name: column for column in wanted(kind, quantity, answers)}
+    open_columns = {TIME if q.key in PACE_KEYS else q.key.rpartition(".")[2] for q in matched.questions}
+    columns = {
+        column: _values(rules[column], header, sheet, matched.units.get(column))
+        for column, header in matched.headers.items()
+        if column not in open_columns
+    }
+    count_note = ""
+    clock_notes: list[Finding] = []
+    if TIME in columns and TIME in matched.units:
+        columns[TIME], count_note = in_seconds(columns[TIME], matched.headers[TIME], matched.units[TIME], answers)
+    if TIME in columns:
+        columns[TIME], clock_notes = continued(columns[TIME], matched.headers[TIME], sheet, date_order(answers))
+    columns |= constants(kind, answers, len(sheet.lines))
+    where = f"{sheet.name}: {matched.headers.get(quantity, quantity)}"
+    columns, density_note = as_dynamic(columns, matched.units, answers, where)
+    return columns, [note for note in (count_note, density_note) if note], clock_notes
 
 
 def _pooled(free: Cells, conditions: Collection[np.ndarray], file: str) -> Iterator[Finding]:
