@@ -17,7 +17,7 @@ from tests.cli.test_commands import STUDY
 CASE = Path(__file__).parents[2] / "examples" / "case"
 CONVERTED = "units are not converted here; `mixedlub import` does"
 
-QUIET = settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+QUIET = settings(max_examples=20, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
 def refused(capsys, *arguments):

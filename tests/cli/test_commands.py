@@ -65,8 +65,8 @@ def lines_of(example):
     return [shlex.split(line) for line in example.split("&&")]
 
 
-LONG = ("condense",)
-"""Commands whose example takes long, and whose own tests have its contacts solved already."""
+LONG = ("condense", "law-errors", "study")
+"""Commands whose example takes long, and whose own tests run the same on fewer contacts and figures."""
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ import pytest
 
 from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import LogNormal
+from mixedlub.cli import main
 from mixedlub.effects import catalogue
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -81,14 +83,23 @@ def run(installed: Path, *arguments: str | Path) -> subprocess.CompletedProcess[
     )
 
 
-def studied(installed: Path, folder: Path, text: str, *options: str) -> tuple[dict[str, float], str]:
-    """The numbers of a study of one condition, and its page where that is written."""
+def commands(installed: Path, *lines: Sequence[str | Path]) -> subprocess.CompletedProcess[str]:
+    """Commands of the program one after the other in one process, with the foreign package installed."""
+    words = [[str(word) for word in line] for line in lines]
+    return run(installed, "-c", f"import sys; from mixedlub.cli import main; sys.exit(max(map(main, {words!r})))")
+
+
+def to_study(folder: Path, text: str, *options: str) -> list[str | Path]:
+    """The command that runs a study of one condition, whose files are written."""
     folder.mkdir()
     heights = np.random.default_rng(1).integers(0, 2000, 12_000)
     (folder / "ground.fan").write_text("FANTRACE " + " ".join(f"{z:x}" for z in heights), encoding="utf-8")
     (folder / "study.toml").write_text(text, encoding="utf-8")
-    said = run(installed, "-m", "mixedlub", "study", folder / "study.toml", "--out", folder / "out", *options)
-    assert said.returncode == 0, said.stderr
+    return ["study", folder / "study.toml", "--out", folder / "out", *options]
+
+
+def studied(folder: Path) -> tuple[dict[str, float], str]:
+    """The numbers of a study of one condition, and its page where that is written."""
     with (folder / "out" / "results.csv").open(encoding="utf-8", newline="") as file:
         (row,) = csv.DictReader(file)
     numbers = {name: float(cell) for name, cell in row.items() if "surface" not in name and name != "validity"}
@@ -107,9 +118,14 @@ def test_effect_of_another_package_appears_in_the_catalogue(installed: Path) -> 
 
 
 def test_a_study_runs_with_the_laws_and_the_trace_of_another_package(installed: Path, tmp_path: Path) -> None:
-    base, _ = studied(installed, tmp_path / "base", STUDY, "--no-figures")
-    own, page = studied(installed, tmp_path / "own", LOSSY + OPTIONS)
-    fanned, _ = studied(installed, tmp_path / "fanned", LOSSY + OPTIONS + EFFECTS, "--no-figures")
+    said = commands(
+        installed,
+        to_study(tmp_path / "base", STUDY, "--no-figures"),
+        to_study(tmp_path / "own", LOSSY + OPTIONS),
+        to_study(tmp_path / "fanned", LOSSY + OPTIONS + EFFECTS, "--no-figures"),
+    )
+    assert said.returncode == 0, said.stderr
+    (base, _), (own, page), (fanned, _) = (studied(tmp_path / name) for name in ("base", "own", "fanned"))
     # The film grows with the load to the power -0.1 and is half of that of the base model.
     assert own["film_thickness_um"] / base["film_thickness_um"] == pytest.approx(0.5 * 0.95**-0.1, rel=1e-9)
     assert fanned["power_loss_W"] - own["power_loss_W"] == pytest.approx(1000.0, rel=1e-9)
@@ -121,20 +137,23 @@ def test_a_study_runs_with_the_laws_and_the_trace_of_another_package(installed: 
 
 def test_a_study_follows_the_friction_law_of_another_package(installed: Path, tmp_path: Path) -> None:
     rubbing = STUDY + '[options]\nfriction = "fan_rubbing"\nfriction_coefficients = { grip = 0.07 }\n'
-    found, _ = studied(installed, tmp_path / "rubbing", rubbing, "--no-figures")
+    study = to_study(tmp_path / "rubbing", rubbing, "--no-figures")
+    said = commands(installed, study, ["friction-laws", "fan_rubbing"])
+    found, _ = studied(tmp_path / "rubbing")
     assert found["mean_friction"] == pytest.approx(0.07, rel=1e-12)
-    page = run(installed, "-m", "mixedlub", "friction-laws", "fan_rubbing").stdout
-    assert "grip" in page
-    assert "the maker of the fan" in page
+    assert "grip" in said.stdout
+    assert "the maker of the fan" in said.stdout
 
 
 def test_a_gearbox_takes_the_part_of_another_package(installed: Path) -> None:
     code = (
         "from mixedlub.parts import find; law = find('other', 'fan_blades');"
-        "print(law.law(10.0, blades=7.0)); print('blades' in law.page())"
+        "print(law.law(10.0, blades=7.0)); print('blades' in law.page());"
+        "from mixedlub.cli import main; main(['parts', 'fan_blades'])"
     )
-    assert run(installed, "-c", code).stdout.split() == ["0.07", "True"]
-    assert "the maker of the fan" in run(installed, "-m", "mixedlub", "parts", "fan_blades").stdout
+    said = run(installed, "-c", code).stdout
+    assert said.split()[:2] == ["0.07", "True"]
+    assert "the maker of the fan" in said
 
 
 @pytest.mark.parametrize(
@@ -162,9 +181,11 @@ def test_a_file_of_another_package_is_imported_and_its_kind_diagnosed(installed:
     lines = ["FANLOG", *(f"{n:g} {t:.4f}" for n, t in zip(speed, noisy, strict=True))]
     (tmp_path / "log.fan").write_text("\n".join(lines) + "\n", encoding="utf-8")
     noise = ("--set", "recording.noise.relative=0.005")
-    found = run(installed, "-m", "mixedlub", "import", tmp_path / "log.fan", "--out", tmp_path / "case", *noise)
-    assert found.returncode == 0, found.stderr
-    found = run(installed, "-m", "mixedlub", "diagnose", tmp_path / "case", "--out", tmp_path / "out")
+    found = commands(
+        installed,
+        ["import", tmp_path / "log.fan", "--out", tmp_path / "case", *noise],
+        ["diagnose", tmp_path / "case", "--out", tmp_path / "out"],
+    )
     assert found.returncode == 0, found.stderr
     told = json.loads((tmp_path / "out" / "diagnosis.json").read_text(encoding="utf-8"))
     assert told["probabilities"]["sensor_offset"] > 0.5
@@ -174,8 +195,7 @@ def test_a_case_with_the_load_sharing_and_the_effect_of_another_package_is_diagn
     installed: Path, tmp_path: Path
 ) -> None:
     """The readings of the template, and 60 W more each: the fan, or an offset of the instrument."""
-    found = run(installed, "-m", "mixedlub", "new", "case", "--out", tmp_path / "case")
-    assert found.returncode == 0, found.stderr
+    assert main(["new", "case", "--out", str(tmp_path / "case")]) == 0
     system = tmp_path / "case" / "system.toml"
     given = system.read_text(encoding="utf-8")
     lossy = given.replace("[lubricant]", 'load_sharing = { model = "lossy", lost_share = 0.05 }\n\n[lubricant]', 1)
@@ -206,7 +226,7 @@ def test_the_pages_of_the_docs_have_the_parts_of_another_package(installed: Path
 
 
 def test_the_format_reference_has_the_parts_of_another_package(installed: Path) -> None:
-    text = run(installed, "-m", "mixedlub", "kinds").stdout + run(installed, "-m", "mixedlub", "kinds", "study").stdout
+    text = commands(installed, ["kinds"], ["kinds", "study"]).stdout
     for part in ("fan_drag: drag of a fan against its speed", "fan_drag_mNm", "lost_share", '"lossy"'):
         assert part in text
     for law in ("half_film", "linear", "newton", "film_only", "fan_rubbing"):
@@ -214,10 +234,10 @@ def test_the_format_reference_has_the_parts_of_another_package(installed: Path) 
 
 
 def test_an_evaluation_of_another_package_has_its_template_and_runs(installed: Path, tmp_path: Path) -> None:
-    assert run(installed, "-m", "mixedlub", "new", "fan", "--out", tmp_path / "rig").returncode == 0
-    said = run(installed, "-m", "mixedlub", "evaluate", "fan", tmp_path / "rig" / "fan.toml", "--out", tmp_path / "out")
+    rig, out = tmp_path / "rig", tmp_path / "out"
+    said = commands(installed, ["new", "fan", "--out", rig], ["evaluate", "fan", rig / "fan.toml", "--out", out])
     assert "torque 0.2865 N m" in said.stdout, said.stderr
-    assert (tmp_path / "out" / "figures" / "drag.svg").is_file()
+    assert (out / "figures" / "drag.svg").is_file()
 
 
 def test_a_package_that_cannot_be_loaded_is_named(installed: Path) -> None:

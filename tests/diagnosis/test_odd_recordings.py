@@ -33,7 +33,7 @@ def edited(
     return diagnose_case(folder, exclude=left_out())
 
 
-@pytest.mark.parametrize("count", [6, pytest.param(15, marks=pytest.mark.long), 30])
+@pytest.mark.parametrize("count", [6, *(pytest.param(n, marks=pytest.mark.long) for n in (15, 30))])
 def test_few_readings_without_stated_noise_are_no_mismatch(make_case, tmp_path: Path, count: int) -> None:
     folder = make_case(tmp_path, "gear_pair")
     found = edited(

@@ -148,6 +148,7 @@ def test_repeats_bound_the_noise_of_very_many_readings(
     assert told(d) == []
 
 
+@pytest.mark.long
 def test_sds_of_one_setting_leave_out_a_share_of_the_reading(tmp_path: Path) -> None:
     """Films that scatter by 2 % between settings, with a column of sds of 1 to 2 nm: nothing is missing."""
     rng = np.random.default_rng(11)

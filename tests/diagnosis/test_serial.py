@@ -14,7 +14,7 @@ from ..kinds.conftest import make, system
 
 __all__ = ["make"]
 
-COUNT = 800
+COUNT = 400
 TIME = np.arange(1.0, COUNT + 1.0)
 
 
@@ -51,7 +51,7 @@ def test_what_is_there_is_still_found_and_a_new_reading_scatters_as_one(make) ->
 
 
 def test_the_seconds_after_a_start_are_no_effect(make) -> None:
-    """A start that settles within 2 s, of 800 s that are held: wrong readings, and nothing missing."""
+    """A start that settles within 2 s, of 400 s that are held: wrong readings, and nothing missing."""
     friction = 0.1 * (1.0 + 0.01 * np.random.default_rng(5).standard_normal(COUNT)) + 0.04 * np.exp(-TIME / 1.5)
     d = answer(make, friction)
     assert d.posterior.verdict == NOTHING

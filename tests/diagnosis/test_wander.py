@@ -88,7 +88,8 @@ def test_a_new_reading_scatters_as_the_recorded_ones(wandering):
     assert 0.84 < inside.mean() < 0.97
 
 
-@pytest.mark.parametrize("count", [125, pytest.param(250, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("count", [125, 250])
 def test_what_swings_far_beyond_the_noise_is_a_state(tmp_path, count):
     """Friction of 500 traction cycles as measured (ETM, slide-roll ratio above 15 %), its turning points typed in."""
     cycle = np.linspace(1.0, 500.0, count)

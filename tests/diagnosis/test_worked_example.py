@@ -41,14 +41,17 @@ def test_case_folders_do_not_tell_the_truth(truth: dict) -> None:
         assert not any(name in path.read_text(encoding="utf-8") for name in truth["concealed"])
 
 
+@pytest.mark.long
 def test_concealed_loss_is_named(second: Diagnosis, truth: dict) -> None:
     assert list(second.posterior.verdict.ids) == list(truth["concealed"])
 
 
+@pytest.mark.long
 def test_spoilt_reading_is_found(second: Diagnosis, truth: dict) -> None:
     assert second.outlier_runs == truth["spoilt_runs"]
 
 
+@pytest.mark.long
 def test_withheld_conditions_are_predicted_nine_times_better_than_by_recalibration(
     second: Diagnosis, truth: dict
 ) -> None:

@@ -251,7 +251,7 @@ class TestComplementarity:
     """Forces where points touch, gaps where they do not, whatever the matrix."""
 
     @given(st.integers(0, 10_000), st.integers(1, 25))
-    @settings(max_examples=150, deadline=None)
+    @settings(max_examples=50, deadline=None)
     def test_any_positive_definite_problem_is_solved(self, seed, size):
         compliance, gap, total = random_problem(seed, size)
         possible = np.random.default_rng(seed).random(size) < 0.8
@@ -262,7 +262,7 @@ class TestComplementarity:
         assert_optimal(compliance, gap, total, possible, force[0], approach[0])
 
     @given(st.integers(0, 10_000), st.integers(2, 25))
-    @settings(max_examples=100, deadline=None)
+    @settings(max_examples=40, deadline=None)
     def test_descent_alone_reaches_the_same_answer(self, seed, size):
         compliance, gap, total = random_problem(seed, size)
         possible = np.ones(size, bool)

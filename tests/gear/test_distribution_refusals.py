@@ -92,7 +92,7 @@ class TestRefusals:
             max_size=4,
         )
     )
-    @settings(max_examples=200, deadline=None)
+    @settings(max_examples=60, deadline=None)
     def test_garbage_never_gives_anything_but_an_input_error(self, changes):
         try:
             share = mesh(HONG, LdpSharing(**changes), points=1, slices=2).load_share(50.0)

@@ -5,8 +5,9 @@
     python tests/golden/regression.py compare BEFORE AFTER
 
 Without cases it takes those of `examples` and, where they exist, the practice cases beside the project. ``collect``
-runs the `mixedlub` that the interpreter finds, so PYTHONPATH chooses the version. On one machine the study's table must be the same
-byte for byte, verdicts must be the same, probabilities and predictions agree within 1e-9 of the larger.
+runs the `mixedlub` that the interpreter finds, so PYTHONPATH chooses the version. On one machine the study's
+table must be the same byte for byte; verdicts must be the same, probabilities and predictions agree within 1e-9 of the
+larger.
 """
 
 from __future__ import annotations

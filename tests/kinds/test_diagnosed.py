@@ -143,6 +143,7 @@ def test_second_lead_screw_lacks_nothing(typed):
     assert tied(d)[0] == ["none"]
 
 
+@pytest.mark.long
 def test_viscosity_under_pressure_is_neither_barus_nor_roelands(typed):
     d = typed("lubricant_viscosity_vs_pressure")
     assert all("pressure_viscosity_law" in ids for ids in tied(d))
@@ -175,6 +176,7 @@ def test_films_that_step_with_the_order_are_the_instrument(filed):
     assert -4e-8 < step["value"] < -1e-8
 
 
+@pytest.mark.long
 def test_a_weaker_step_ties_with_nothing(filed):
     """Films that scatter by 5 to 10 % leave room for no mismatch at all."""
     assert ["fringe_step"] in tied(filed("ehd_film_oil_a_40C_100C"))
@@ -189,18 +191,21 @@ def test_film_above_its_neighbour_is_set_aside(filed):
     assert 16 in filed("ehd_film_oil_b_100C").outlier_runs
 
 
+@pytest.mark.long
 def test_pin_on_disc_changes_on_two_time_scales(filed):
     d = filed("mtm_pin_on_disc_ecr_25C")
     assert ["two_time_scales"] in tied(d)
     assert not any(instrument(ids) for ids in named(d))
 
 
+@pytest.mark.long
 def test_traction_cycles_creep_and_wander_and_no_run_in_describes_them(filed):
     d = filed("etm_traction_500_cycles")
     assert all({"contact_creep", "wandering_surface_state"} <= set(ids) for ids in named(d))
     assert chance(d, "friction_run_in") < 0.01
 
 
+@pytest.mark.long
 def test_a_wandering_state_is_said_to_be_a_form_and_no_cause(filed):
     text = said(filed("etm_traction_500_cycles"))
     assert "free form, its cause not named" in text
@@ -215,7 +220,8 @@ def test_rheometer_sample_changes_with_its_history_from_an_unknown_cause(filed):
     assert "fresh sample" in said(d)
 
 
-@pytest.mark.parametrize("every", [pytest.param(4, marks=pytest.mark.long), 20])
+@pytest.mark.long
+@pytest.mark.parametrize("every", [4, 20])
 def test_a_rheometer_log_is_answered_alike_however_dense_it_is(shared, tmp_path, every):
     table = np.genfromtxt(
         shared / "data" / "recordings" / "oil_viscosity_temperature_cycle" / "viscosity_temperature.csv",

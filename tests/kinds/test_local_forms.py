@@ -178,6 +178,7 @@ def test_films_without_a_dent_have_no_box(make):
     assert diagnose_case(make(*films()).folder).posterior.verdict == NOTHING
 
 
+@pytest.mark.long
 def test_what_the_reading_before_left_behind_is_not_noise(make):
     """A quarter of each step of temperature is still to come when the film is read."""
     rng = np.random.default_rng(9)

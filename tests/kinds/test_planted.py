@@ -347,7 +347,9 @@ def test_a_motor_torque_that_contains_the_friction_is_no_condition(make) -> None
     assert "torque_constant" in d.posterior.verdict.effects
 
 
-@pytest.mark.parametrize(("effect_id", "drifts"), [("force_offset", False), ("force_drift", True)])
+@pytest.mark.parametrize(
+    ("effect_id", "drifts"), [("force_offset", False), pytest.param("force_drift", True, marks=pytest.mark.long)]
+)
 def test_zero_error_of_the_force_weighs_as_one_over_the_load(make, effect_id: str, drifts: bool) -> None:
     """0.1 of a load of 5 to 60 N, and a force that reads 0.05 N too much, or comes to."""
     load = np.tile([5.0, 10.0, 20.0, 60.0], 15)

@@ -17,7 +17,7 @@ from roughness.parameters import CONVENTIONS
 from tests.profiles import samples
 
 BUILT = {name: build() for name, (build, _) in samples.SAMPLES.items()}
-HURRIED = settings(max_examples=60, deadline=2000, suppress_health_check=list(HealthCheck))
+HURRIED = settings(max_examples=30, deadline=2000, suppress_health_check=list(HealthCheck))
 
 
 def opened(name, data):

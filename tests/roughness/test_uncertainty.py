@@ -10,7 +10,7 @@ from roughness import mccool_asperities, moments, roughness_profile
 from roughness.uncertainty import bootstrap, short_cutoff_band, smoothed_moments
 
 
-@pytest.mark.parametrize("sections", [3, 5, 10])
+@pytest.mark.parametrize("sections", [3, *(pytest.param(n, marks=pytest.mark.long) for n in (5, 10))])
 def test_intervals_of_90_percent_hold_the_truth_in_85_to_95(gaussian_trace, sections):
     """Quantiles of the resampled sections held it in 64 to 70 % with three sections, 76 to 83 % with five."""
     long = gaussian_trace(200 * sections * 1600, seed=3)

@@ -258,9 +258,15 @@ def signatures(form: Any, place: Any) -> Iterator[Signature]:
 
 
 PLANTED = planted()
+LONG = {("pressure_viscosity_law", "bode"), ("dynamic_load", "dynamic_load_of_two_orders")}
+"""Forms that take many fits, beside others of the same effect that take few."""
 
 
-@pytest.mark.parametrize("key", list(PLANTED), ids=lambda key: "-".join(map(str, key)))
+@pytest.mark.parametrize(
+    "key",
+    [pytest.param(key, marks=pytest.mark.long if key[:2] in LONG else ()) for key in PLANTED],
+    ids=lambda key: "-".join(map(str, key)),
+)
 def test_the_catalogue_can_become_a_form_just_where_the_form_says_so(key):
     places, within = PLANTED[key], key[2]
     worst, bound = 0.0, NEARLY.get(key[:2], EXACT)

@@ -101,7 +101,7 @@ def test_scratches_leave_a_gaussian_bulk(grooves, share):
     ids=["lognormal", "folded", "clipped"],
 )
 def test_distorted_surfaces_are_not_gaussian(shape):
-    count, p = verdicts(lambda rng: shape(heights(rng, 32000, 15e-6)), 30)
+    count, p = verdicts(lambda rng: shape(heights(rng, 32000, 15e-6)), 10)
     assert count["gaussian"] == 0
-    assert count["not_gaussian"] + count["plateau"] >= 27
+    assert count["not_gaussian"] + count["plateau"] >= 9
     assert (p < 0.01).all()
