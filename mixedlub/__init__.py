@@ -10,8 +10,6 @@ name is retired over one minor release: it moves to `RETIRED`, where it still wo
 from __future__ import annotations
 
 from importlib import import_module
-from importlib.util import find_spec
-from pathlib import Path
 from typing import Any
 
 PUBLIC = {
@@ -39,11 +37,20 @@ RETIRED: dict[str, str] = {}
 
 __all__ = [*PUBLIC, *ROOMS, *BESIDE]
 
-for _name in BESIDE:
-    _spec = find_spec(_name)
-    _origin = Path(_spec.origin) if _spec is not None and _spec.origin is not None else None
-    if _origin is not None and Path(__file__).parents[1] not in _origin.parents[1:2]:
-        raise ImportError(f"{_origin} hides the package {_name!r}, which mixedlub needs; rename this file or folder")
+
+def _refuse_hidden_packages() -> None:
+    """Raise an error that names a file or folder which hides a package of this distribution."""
+    from importlib.util import find_spec
+    from pathlib import Path
+
+    home = Path(__file__).parents[1]
+    for name in BESIDE:
+        found = find_spec(name)
+        if found is not None and found.origin is not None and home not in Path(found.origin).parents[1:2]:
+            raise ImportError(f"{found.origin} hides the package {name!r}, which mixedlub needs; rename it")
+
+
+_refuse_hidden_packages()
 
 
 def __getattr__(name: str) -> Any:

@@ -25,12 +25,12 @@ from mixedlub.schema.system_file import Contact, Lubricant, RigFile
 from mixedlub.schema.table import RUN, Column, Table, read_table
 from mixedlub.schema.toml_file import named_file
 from mixedlub.solutions.law_file import friction_file
+from mixedlub.solutions.least_squares import least_squares
 from mixedlub.solutions.regression import Regression, design_of
 from mixedlub.solutions.stepwise import (
     FEWEST,
     PER_TERM,
     is_determined,
-    least_squares,
     measured_regression,
     varied,
 )

@@ -10,6 +10,7 @@ import pandas as pd
 
 from mixedlub.ehl.solve import CONVERGED
 from mixedlub.friction.condensed import INPUTS, TERMS, coefficient_name, columns, condensed
+from mixedlub.solutions.least_squares import least_squares
 from profiles.errors import RunError
 
 EVERY = 5
@@ -74,21 +75,14 @@ def regression(solutions: pd.DataFrame, of_oil: Mapping[str, float]) -> Regressi
     design = design_of(values)
     wanted = np.log(table["friction"].to_numpy())
     out = np.arange(len(table)) % EVERY == EVERY - 1
-    found, errors = _least_squares(design[~out].to_numpy(), wanted[~out])
+    law = least_squares(design[~out], wanted[~out])
     names = [coefficient_name(term) for term in TERMS]
-    coefficients = dict(zip(names, map(float, found), strict=True)) | limits_of(values) | dict(of_oil)
+    coefficients = dict(zip(names, law.coefficients.tolist(), strict=True)) | limits_of(values) | dict(of_oil)
     table["fitted"] = fitted(values, coefficients)
     table["residual_of_log"] = wanted - np.log(table["fitted"].to_numpy())
     table["left_out"] = out
     fit = _errors(table, solutions) | {"rms_of_log_of_published_terms": _published(values, wanted, out)}
-    return Regression(coefficients, dict(zip(names, map(float, errors), strict=True)), table, fit)
-
-
-def _least_squares(design: np.ndarray, wanted: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Coefficients and their standard errors."""
-    found = np.linalg.lstsq(design, wanted, rcond=None)[0]
-    variance = np.sum((wanted - design @ found) ** 2) / (len(wanted) - len(found))
-    return found, np.sqrt(variance * np.diag(np.linalg.inv(design.T @ design)))
+    return Regression(coefficients, dict(zip(names, law.standard_errors.tolist(), strict=True)), table, fit)
 
 
 def _errors(table: pd.DataFrame, solutions: pd.DataFrame) -> dict[str, float]:
