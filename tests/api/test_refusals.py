@@ -39,12 +39,8 @@ def path(**keys):
     return loss(call=ml.along_path, **keys)
 
 
-def test_a_condition_without_a_finite_loss_is_named() -> None:
-    refused(
-        loss(oil_temperature_C=[60, 300]),
-        "power_loss: oil_temperature_C = 300, torque_Nm = 100",
-        "no finite power loss",
-    )
+def test_a_condition_without_a_pressure_viscosity_is_named() -> None:
+    refused(loss(oil_temperature_C=[60, 300]), "lubricant.pressure_viscosity_per_GPa", "below zero at 300 °C")
 
 
 def test_one_viscosity_of_two_is_asked_for_at_both_temperatures() -> None:
