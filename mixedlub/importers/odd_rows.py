@@ -61,7 +61,9 @@ SUMMARY = re.compile(
 )
 """Label of a row that summarises others, in small letters alone."""
 _TAIL = re.compile(r"(?:\W*(?:values?|of all\b.*|\d+ *(?:-|–|\.\.+|to|bis) *\d+))+\W*\Z")
+"""Words and ranges of numbers behind a label."""
 _LONGEST = 40
+"""Judgement. Most characters of a label; longer cells are remarks."""
 
 
 def is_summary(cell: str) -> bool:

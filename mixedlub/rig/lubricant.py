@@ -107,11 +107,11 @@ class Lubricant:
         """Oil inputs of the chain at a temperature (K), by glossary name."""
         coefficient = self.pressure_coefficient(temperature)
         if np.any(coefficient <= 0.0):
-            hottest = float(np.max(temperature)) - oil.ZERO_CELSIUS
+            worst = float(np.ravel(temperature)[np.argmin(coefficient)]) - oil.ZERO_CELSIUS
             rule = (
-                f"the straight line through both values is below zero at {hottest:g} °C; give values on both sides of "
+                f"the straight line through both values is below zero at {worst:g} °C; give values on both sides of "
+                "the temperatures of use, or known_pressure_viscosity, one value that is carried to others"
             )
-            rule += "the temperatures of use, or known_pressure_viscosity, one value that is carried to others"
             raise InputError(rule, where="lubricant.pressure_viscosity_per_GPa")
         viscosity, known = self.viscosity(temperature), self.viscosity(np.array(self.temperature))
         return {
