@@ -1,4 +1,4 @@
-"""Docstrings name things by their nouns: pronouns and relatives in place of a noun are counted."""
+"""Docstrings and pages name things by their nouns: pronouns and relatives in place of a noun are counted."""
 
 import ast
 import re
@@ -24,6 +24,19 @@ PACKAGE = 1.0
 """Most such words per 1,000 words of docstring over all packages; well-kept scientific packages have 0.3."""
 ROOM = 4.0
 """The same for each room."""
+PAGE = 0.1
+"""The same for the prose of the written pages together."""
+CHECKOUT = Path(__file__).parents[2]
+PAGES = [
+    *(CHECKOUT / name for name in ("README.md", "CHANGELOG.md")),
+    *sorted(p for p in (CHECKOUT / "docs").rglob("*.md") if "made" not in p.parts),
+]
+"""Pages that are written, not generated."""
+NOT_PAGE_PROSE = re.compile(
+    r"^[ \t]*(`{3,}|:{3,})[^\n]*\n.*?^[ \t]*\1[ \t]*$|^[ \t]*\|[^\n]*$|\[[^]]*\]\([^)]*\)|`[^`]*`|\$\$?[^$]*\$",
+    re.MULTILINE | re.DOTALL,
+)
+"""Blocks, tables, links, names and formulas of a page."""
 
 
 def docstrings(path: Path) -> list[str]:
@@ -79,3 +92,8 @@ def test_docstrings_of_all_packages_name_things_by_their_nouns() -> None:
 @pytest.mark.parametrize("room", ROOMS)
 def test_docstrings_name_things_by_their_nouns(room: str) -> None:
     assert of_room(room) <= ROOM
+
+
+def test_pages_name_things_by_their_nouns() -> None:
+    prose = " ".join(NOT_PAGE_PROSE.sub(" ", path.read_text(encoding="utf-8")) for path in PAGES)
+    assert 1000.0 * len(CHAINS.findall(prose)) / len(prose.split()) <= PAGE
