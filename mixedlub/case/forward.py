@@ -74,7 +74,9 @@ class Forward:
         self.inputs["reading_scale"] = reading_scale
         self.inputs |= {name: plain[quantity] for quantity, name in case.kind.base_inputs.items()}
         self.known = known_effects(case.system.effects, case.kind.name, self.chain, tuple(self.inputs), "reading")
-        self.uncertain_laws = tuple(e for e in self.effects() if any(p.base_sd for p in e.parameters))
+        self.uncertain_laws = tuple(
+            e for e in known_in(case.kind.name).values() if any(p.base_sd for p in e.parameters) and self._offers(e)
+        )
         self.calibrations: tuple[Calibration, ...] = (
             *(c for c in (*calibrations(case.system), *extra) if all(n in self.inputs for n in c.needs)),
             *map(self._of_effect, self.known.sds),
@@ -177,10 +179,13 @@ class Forward:
 
     def effects(self, exclude: Sequence[str] = ()) -> tuple[Effect, ...]:
         """Effects of the catalogue that apply to these rows, with the parameters that are free in this kind."""
-        return tuple(
-            e
-            for e in known_in(self.case.kind.name).values()
-            if e.id not in (*exclude, *self.known.values)
+        catalogue = known_in(self.case.kind.name).values()
+        return tuple(e for e in catalogue if e.id not in exclude and self._offers(e))
+
+    def _offers(self, e: Effect) -> bool:
+        """Whether an effect applies to these rows beside those that the case names."""
+        return (
+            e.id not in self.known.values
             and available(e, self.chain, tuple(self.inputs), "reading", self.case.kind.name)
             and (not e.needs_variation_in or varies(self.inputs[e.needs_variation_in]))
             and self._within(e)

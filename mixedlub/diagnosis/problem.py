@@ -146,9 +146,9 @@ class Problem:
         run = self.forward.run(calibration, parameters, near)
         return replace(run, prediction=self.transform(run.prediction)) if self.case.kind.logarithmic else run
 
-    def predict(self, explanation: Explanation, z: np.ndarray) -> np.ndarray:
+    def predict(self, explanation: Explanation, z: np.ndarray, near: Run | None = None) -> np.ndarray:
         """Predicted readings at coordinates z."""
-        return self.run(explanation, z).prediction
+        return self.run(explanation, z, near).prediction
 
     def base(self, z: np.ndarray) -> np.ndarray:
         """Predicted readings of the base model at the calibration in coordinates z."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -54,6 +55,7 @@ def missing(system: system_file.System) -> tuple[str, ...]:
     return tuple(name for name, gap in gaps if gap)
 
 
+@lru_cache(maxsize=1024)
 def moved(oil: Lubricant, pivot: float, level: float = 1.0, slope: float = 1.0) -> Lubricant:
     """The oil with its kinematic viscosity at the pivot (K) and its slope in ASTM D341 multiplied.
 

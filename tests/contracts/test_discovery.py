@@ -229,6 +229,7 @@ def test_a_case_with_the_load_sharing_and_the_effect_of_another_package_is_diagn
     assert "A fan on the shaft takes power." in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
 
 
+@pytest.mark.long
 def test_the_pages_of_the_docs_have_the_parts_of_another_package(installed: Path) -> None:
     extensions = ROOT / "docs" / "extensions"
     code = (

@@ -22,6 +22,7 @@ def written(teeth: Diagnosis) -> dict[str, str]:
     return files(replace(teeth, outlier_chance=np.ones(teeth.readings.size)))
 
 
+@pytest.mark.long
 def test_every_figure_is_drawn(written: dict[str, str], teeth: Diagnosis) -> None:
     assert "figures/empirical_form.svg" in written
     assert set(written) == set(files(teeth))

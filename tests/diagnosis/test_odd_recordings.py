@@ -156,6 +156,7 @@ def test_readings_that_follow_no_law_of_their_conditions_are_unknown(tmp_path: P
     assert found.posterior.verdict == DISCREPANCY
 
 
+@pytest.mark.long
 def test_a_tenth_of_wild_readings_hides_no_law(make_case, tmp_path: Path) -> None:
     rng = np.random.default_rng(6)
 

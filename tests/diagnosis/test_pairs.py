@@ -23,6 +23,7 @@ from .test_inference import problem
 __all__ = ["make"]
 
 
+@pytest.mark.long
 def test_two_effects_that_made_the_readings_are_a_promising_pair() -> None:
     """The standard rig with readings of one draw of churning and one of a boundary film."""
     p = problem()

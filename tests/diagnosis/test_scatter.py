@@ -66,6 +66,7 @@ def test_scatter_beyond_what_is_stated_is_no_mismatch(half: Callable[..., Path],
     assert not d.test.detected
 
 
+@pytest.mark.long
 def test_an_effect_stays_visible_through_it(half: Callable[..., Path], excluded: tuple[str, ...]) -> None:
     d = diagnose_case(half(heated), exclude=excluded)
     assert len(told(d)) == 1
@@ -101,6 +102,7 @@ def humming(conditions: dict[str, np.ndarray], base: np.ndarray) -> np.ndarray:
     return base + 0.05 * float(np.median(base)) * np.random.default_rng(4).standard_normal(base.size)
 
 
+@pytest.mark.long
 def test_noise_that_nobody_states_may_have_a_part_alike_for_all(
     make_case: Make, tmp_path: Path, excluded: tuple[str, ...]
 ) -> None:
@@ -189,6 +191,7 @@ def test_noise_of_very_many_readings_is_estimated_though_a_share_of_them_is_look
     assert d.test.detected
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("scatter", "doubted"), [(0.01, False), (0.25, True)])
 def test_estimated_noise_that_no_rig_has_is_doubted(tmp_path: Path, scatter: float, doubted: bool) -> None:
     friction = 0.1 * (1.0 + scatter * np.random.default_rng(4).standard_normal(40))

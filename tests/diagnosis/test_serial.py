@@ -52,6 +52,7 @@ def test_what_is_there_is_still_found_and_a_new_reading_scatters_as_one(make) ->
     assert 0.85 < inside.mean() < 0.96
 
 
+@pytest.mark.long
 def test_the_seconds_after_a_start_are_no_effect(make) -> None:
     """A start that settles within 2 s, of 800 s that are held: wrong readings, and nothing missing."""
     friction = 0.1 * (1.0 + 0.01 * np.random.default_rng(5).standard_normal(COUNT)) + 0.04 * np.exp(-TIME / 1.5)

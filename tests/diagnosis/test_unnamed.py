@@ -57,6 +57,7 @@ def test_film_and_shear_carry_with_the_signs_of_lubrication() -> None:
     assert (found["shear_stress"] > 0).all()
 
 
+@pytest.mark.long
 def test_a_mismatch_of_the_film_is_taken_for_one() -> None:
     """Readings of a film that is thinner the colder the oil, made by hand from the chain's own slope."""
     p = problem("disc", seed=3)
@@ -131,6 +132,7 @@ def test_the_demerit_spares_what_chance_and_another_form_leave(after: float, row
     assert (HeldOut(3.0, after, "", 5, rows, after, 0.0, 0.0).log_odds_penalty(1.0) > 0.0) is loses
 
 
+@pytest.mark.long
 def test_an_effect_that_is_seldom_missing_has_lower_odds(monkeypatch: pytest.MonkeyPatch) -> None:
     from mixedlub.diagnosis.search import prior_odds
 

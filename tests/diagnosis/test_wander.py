@@ -83,6 +83,7 @@ def test_an_error_that_wanders_is_the_same_for_some_of_the_rows():
     assert correlated_error.columns(Table({"load_N": CLOCK}, "rows")).shape == (COUNT, 0)
 
 
+@pytest.mark.long
 def test_a_new_reading_scatters_as_the_recorded_ones(wandering):
     d = wandering
     inside = (d.readings > d.recorded.low90) & (d.readings < d.recorded.high90)
@@ -122,6 +123,7 @@ def test_set_ups_that_are_off_do_not_wander(tmp_path):
     assert widths[1] == pytest.approx(widths[0], rel=0.15)
 
 
+@pytest.mark.long
 def test_two_readings_of_one_second_change_nothing(tmp_path):
     friction = 0.1 * (1.0 + wandering_noise(3, 0.9, 0.01))
     clock = CLOCK.copy()

@@ -47,6 +47,7 @@ def test_traction_rig_in_timed_steps_asks_for_the_probe(recordings, tmp_path):
     assert (np.diff(table["time_s"]) > 0).all()
 
 
+@pytest.mark.long
 def test_traction_rig_in_sweeps(recordings, tmp_path):
     folder = recordings / "etm_traction_500_cycles"
     table = read_case(import_files([folder / "original.txt"], tmp_path / "case")).recordings

@@ -29,6 +29,7 @@ def drive(load_share, spread, seed=1):
     return sections, {"speed_rpm": speed, "load_N": load, "setup": names, "friction_torque_Nm": read}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("spread", [0.05, 0.2])
 def test_a_load_that_counts_is_found_across_assemblies_and_calibration_stays_near(make, spread):
     found = diagnose_case(make(*drive(1.0, spread)).folder)

@@ -53,6 +53,7 @@ def instrument(ids):
     return any(catalogue()[name].stage == "measurement" for name in ids)
 
 
+@pytest.mark.long
 def test_film_mismatch_is_at_high_speed(typed):
     d = typed("ehd_film_31C_50N")
     assert d.test.detected
@@ -130,6 +131,7 @@ def error_per_cent(d, prediction):
     return float(np.sqrt(np.mean((d.readings - prediction) ** 2)) / PER_CENT)
 
 
+@pytest.mark.long
 def test_first_lead_screw_is_stribeck(typed):
     d = typed("leadscrew_drive_1")
     assert tied(d)[0] == ["stribeck"]
@@ -186,6 +188,7 @@ def test_a_weaker_step_ties_with_nothing(filed):
     assert ["none"] in tied(filed("ehd_film_oil_a_40C_100C"))
 
 
+@pytest.mark.long
 def test_no_physics_alone_is_named_where_films_step(filed):
     assert all(instrument(ids) for ids in named(filed("ehd_film_oil_b_100C")))
 

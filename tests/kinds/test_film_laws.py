@@ -116,6 +116,7 @@ def test_exponent_turns_films_about_the_middle_of_the_recording(make):
     assert np.polyfit(np.log(SPEED), np.log(ratio), 1)[0] == pytest.approx(0.03 * POINT_EXPONENT, rel=1e-9)
 
 
+@pytest.mark.long
 def test_pressure_viscosity_that_goes_with_a_power_of_viscosity_lacks_nothing(make):
     """That of mineral oils by P. W. Gold and others, J. Synth. Lubr. 18 (2001) 51, is no line in temperature."""
     celsius, speed = (grid.ravel() for grid in np.meshgrid([20.0, 60.0, 100.0, 140.0], np.geomspace(0.02, 3.0, 16)))

@@ -38,6 +38,7 @@ def resonance(speed, order):
     return 0.25 / (1.0 + ((np.abs(speed) - AT) / (0.05 * AT)) ** 2)
 
 
+@pytest.mark.long
 def test_a_resonance_is_no_heap_of_outliers(make):
     found = diagnose_case(make(*drive(resonance)).folder)
     assert found.test.detected
@@ -103,6 +104,7 @@ def test_a_friction_event_keeps_its_name(make):
     assert found.posterior.verdict == Explanation.of("friction_event")
 
 
+@pytest.mark.long
 def test_creep_that_few_readings_show_is_found_beside_running_in(make):
     """Every tenth reading at very low slip: under running-in alone they look like outliers.
 
@@ -118,6 +120,7 @@ def test_creep_that_few_readings_show_is_found_beside_running_in(make):
     assert not found.outlier_runs
 
 
+@pytest.mark.long
 def test_the_run_of_a_change_is_told_among_very_many(make):
     rng = np.random.default_rng(7)
     speed = np.tile(np.geomspace(5.0, 300.0, 12), 25)
@@ -175,6 +178,7 @@ def test_a_corner_of_conditions_is_no_heap_of_outliers(make, repeats):
     assert "slide-roll ratio is from 1 on" in told(found)
 
 
+@pytest.mark.long
 def test_films_without_a_dent_have_no_box(make):
     assert diagnose_case(make(*films()).folder).posterior.verdict == NOTHING
 

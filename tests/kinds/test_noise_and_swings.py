@@ -36,6 +36,7 @@ def test_what_swings_in_time_is_no_noise(make, periods, height):
     assert found.case.system.recording.noise.relative <= max(0.01, 0.1 * height)  # a triangle is not all cosine
 
 
+@pytest.mark.long
 def test_noise_of_readings_through_zero_is_told_from_repeats(make):
     rng = np.random.default_rng(5)
     speed = np.tile(np.concatenate([-np.geomspace(2.0, 200.0, 14)[::-1], np.geomspace(2.0, 200.0, 14)]), 8)
@@ -61,6 +62,7 @@ def test_scatter_far_beyond_what_is_stated_is_not_called_noise(make, times, verd
     assert found.test.detected == (verdict == DISCREPANCY)
 
 
+@pytest.mark.long
 def test_a_condition_that_is_cycled_makes_no_wave(make):
     """Every second reading at another load, in order: what goes with the load is no swing in time."""
     load = np.where(np.arange(TIME.size) % 2 == 0, 20.0, 60.0)

@@ -183,6 +183,7 @@ def test_traction_cycles_need_creep_and_a_surface_state_that_no_run_in_describes
     assert swings < 0.6 * creep
 
 
+@pytest.mark.long
 def test_rheometer_sample_changes_with_its_history(from_files):
     case = read_case(from_files / "oil_viscosity_temperature_cycle")
     assert log_residual(case) > 0.08
@@ -199,6 +200,7 @@ def test_pin_on_disc_runs_in_on_two_time_scales(from_files):
     assert found["passing_time"] < 0.2 * found["lasting_time"]
 
 
+@pytest.mark.long
 def test_two_oils_lose_film_with_temperature_as_their_viscosity_says(from_files):
     case = read_case(from_files / "ehd_film_oil_a_40C_100C")
     _, base, _ = fit(case)

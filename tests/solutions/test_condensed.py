@@ -63,6 +63,7 @@ def test_contacts_slide_both_ways_at_all_pressures() -> None:
         points.draw(replace(example_oil(), largest_pressure=0.3e9), 20, seed=1)
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore:lubricant")
 def test_fresh_solutions_are_within_the_stated_error() -> None:
     file = tomllib.loads(EXAMPLE.read_text())

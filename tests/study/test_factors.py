@@ -152,6 +152,7 @@ def test_several_traces_are_drawn_anew_and_traces_along_the_lay_are_refused(writ
     assert "takes traces in one direction" in message
 
 
+@pytest.mark.long
 def test_a_random_design_finds_what_the_grid_finds(write_factors):
     """Friction of the mesh hangs on the boundary friction far more than on the face width."""
     wide = {"boundary_friction": [0.05, 0.15], "face_width_mm": [13, 15], "torque_Nm": [90, 110]}

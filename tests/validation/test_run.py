@@ -133,6 +133,7 @@ def test_the_truth_of_a_disc_explains_its_readings_and_no_rival_does(tmp_path):
     assert found["identifiable"]
 
 
+@pytest.mark.long
 def test_counts_by_kind_wrong_answers_and_break_downs(named_orders, tmp_path):
     with without_rivals():
         dealt = [tmp_path / make(SEED, place, order, tmp_path) for place, order in enumerate(named_orders.values())]

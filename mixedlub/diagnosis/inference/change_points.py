@@ -86,6 +86,7 @@ def profile_change_point(
     columns = np.zeros((problem.y.size, 0)) if extra_columns is None else extra_columns
     weighted = columns.T * fit.weight
     taken = np.linalg.solve(np.eye(columns.shape[1]) + weighted @ columns, weighted)
+    here = problem.run(fit.explanation, fit.z)
 
     def evaluated(where: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         every = [
@@ -96,7 +97,7 @@ def profile_change_point(
         return np.array(every)[logs.argmax(axis=0), np.arange(where.size)], logs.max(axis=0)
 
     def density(z: np.ndarray) -> float:
-        residual = (problem.y - problem.predict(fit.explanation, z)) / problem.sd - fit.common
+        residual = (problem.y - problem.predict(fit.explanation, z, here)) / problem.sd - fit.common
         extra = taken @ residual
         squares = float(z @ z - fit.z @ fit.z + fit.z[index] ** 2 + extra @ extra)
         log = float(log_likelihood(residual - columns @ extra)[0].sum()) - 0.5 * squares
