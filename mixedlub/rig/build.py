@@ -341,6 +341,8 @@ def surface(name: str, section: surface_file.SurfaceSection, found: Measured | N
         density=section.density_kg_m3,
         heat_capacity=section.specific_heat_J_kgK,
         steps=() if found is None else found.steps,
+        cutoff=None if found is None else found.cutoffs.get("cutoff"),
+        short_cutoff=None if found is None else found.cutoffs.get("short_cutoff"),
     )
     if made.bandwidth < LEAST_NAYAK:
         text = f"Nayak alpha is {made.bandwidth:.2f}, below the 1.5 of any isotropic Gaussian surface"
