@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import os
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -20,12 +21,16 @@ MAX_PIXELS = 200_000_000
 
 @dataclass(frozen=True, eq=False)
 class HeightMap:
-    """Heights (m) on a grid, rows along y and columns along x, with their two spacings (m); nan where missing."""
+    """Heights (m) on a grid, rows along y and columns along x, with their two spacings (m); nan where missing.
+
+    ``cutoffs``: wavelengths of the applied filters (m), by the names of a profile.
+    """
 
     heights: np.ndarray
     spacing_x: float
     spacing_y: float
     name: str = "map"
+    cutoffs: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         heights = np.array(self.heights, dtype=float)

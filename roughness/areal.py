@@ -128,7 +128,9 @@ def areal_roughness(
             rule = f"the map of {min(area.size) * 1e3:.3g} mm is shorter than the cut-off"
             raise InputError(rule, where=f"map {area.name!r}: cut-off (mm)", value=cutoff * 1e3)
         heights = heights - _smoothed(heights, area, cutoff)
-    return replace(area, heights=heights)
+    applied = {"cutoff": cutoff, "short_cutoff": short_cutoff}
+    cutoffs = {**area.cutoffs, **{name: length for name, length in applied.items() if length is not None}}
+    return replace(area, heights=heights, cutoffs=cutoffs)
 
 
 def tiles(area: HeightMap, a_side: int = 3) -> list[HeightMap]:

@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from mixedlub.schema.table import RUN, Column, is_number, read_table
+from mixedlub.schema.cells import is_number
+from mixedlub.schema.table import RUN, Column, read_table
 from profiles.errors import InputError
 
 COLUMNS = (RUN, Column("speed_rpm"), Column("surface", "name"))

@@ -10,13 +10,16 @@ import re
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import form_tables
 import markdown_tables as md
 import scores
 import thresholds
 from sphinx.application import Sphinx
+
+if TYPE_CHECKING:
+    from mixedlub.chain.law import Law
 
 ROOT = Path(__file__).parents[2]
 LAW_MODULES = ("roughness.mccool", "roughness.integrals", "roughness.single_asperity", "roughness.height_sums")
@@ -103,6 +106,13 @@ def _laws() -> Iterator[tuple[str, str]]:
         yield f"laws/{last}", f"# {title}\n\n```{{eval-rst}}\n.. automodule:: {name}\n   :members:\n```\n"
 
 
+def _page_of(law: Law, heading: str, page: str) -> list[str]:
+    """Heading, summary and drawn equation of a law, and the rest of its printed page."""
+    rest = page.partition("\n\n")[2]
+    equation = f"```{{math}}\n{law.equation}\n```"
+    return [heading, law.summary, equation, f"```{{code-block}} text\n:class: wide\n{rest}\n```"]
+
+
 def _effects() -> Iterator[tuple[str, str]]:
     from mixedlub.chain.effect import STAGES
     from mixedlub.effects import catalogue
@@ -112,12 +122,7 @@ def _effects() -> Iterator[tuple[str, str]]:
         parts = [f"# Stage: {stage}"]
         for e in catalogue().values():
             if e.stage == stage:
-                parts += [
-                    f"## {e.id}",
-                    e.summary,
-                    f"```{{math}}\n{e.equation}\n```",
-                    f"```{{code-block}} text\n:class: wide\n{effects_text(e.id).partition(chr(10) * 2)[2]}\n```",
-                ]
+                parts += _page_of(e, f"## {e.id}", effects_text(e.id))
         if len(parts) > 1:
             yield f"effects/{stage}", "\n\n".join(parts) + "\n"
 
@@ -164,12 +169,7 @@ def _friction_laws() -> str:
     for place, words in PLACES.items():
         parts.append(f"## {words[:1].upper()}{words[1:]}")
         for law in (one for one in catalogue().values() if one.place == place):
-            parts += [
-                f"### {law.name}",
-                law.summary,
-                f"```{{math}}\n{law.equation}\n```",
-                f"```{{code-block}} text\n:class: wide\n{law.page().partition(chr(10) * 2)[2]}\n```",
-            ]
+            parts += _page_of(law, f"### {law.name}", law.page())
     return "\n\n".join(parts)
 
 
@@ -183,12 +183,7 @@ def _part_laws() -> str:
     for kind, gives in GIVES.items():
         parts.append(f"## {kind[:1].upper()}{kind[1:]}: {gives}")
         for law in of_kind(kind).values():
-            parts += [
-                f"### {law.name}",
-                law.summary,
-                f"```{{math}}\n{law.equation}\n```",
-                f"```{{code-block}} text\n:class: wide\n{page(law).partition(chr(10) * 2)[2]}\n```",
-            ]
+            parts += _page_of(law, f"### {law.name}", page(law))
     return "\n\n".join(parts)
 
 

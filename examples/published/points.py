@@ -36,6 +36,12 @@ ROUGH, SMOOTH = "ground / ground", "superfinished / superfinished"
 AT_100 = {"oil_temperature_C": 1}
 CHANGES: tuple[tuple[str, str, tuple[str, Place], tuple[str, Place]], ...] = (
     ("20 to 95 m/s, geometry B, ground", "-28 %", ("b", {"speed_rpm": 0}), ("b", {"speed_rpm": -1})),
+    (
+        "20 to 95 m/s, geometry B, superfinished",
+        "falls",
+        ("b", {"pairing": SMOOTH, "speed_rpm": 0}),
+        ("b", {"pairing": SMOOTH, "speed_rpm": -1}),
+    ),
     ("ground to superfinished, geometry B", "-30 %", ("b", {}), ("b", {"pairing": SMOOTH})),
     (
         "geometry A to B, 1900 N m, 100 °C, ground",

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from mixedlub.chain.model import Chain, Law
+from mixedlub.chain.effect import Effect
+from mixedlub.chain.model import Chain, Law, Model, Parameters
 from mixedlub.laws import balance
 from mixedlub.laws.contact import mean_hertz_pressure
 from profiles.errors import InputError
@@ -153,23 +154,24 @@ JOHNSON_GREENWOOD_POON = r"""Film thickness at which film and asperities togethe
     """
 
 
-def sharing_exponent(film_law: Law) -> float:
+def sharing_exponent(film_law: Law, effects: Sequence[Effect] = (), values: Parameters | None = None) -> float:
     r"""Exponent k of the film over the ratio of total to film load, :math:`h = h_0\gamma^k` (-).
 
-    From the law at the load :math:`w/\gamma` and the modulus :math:`E'/\gamma` relative to w and E'; for a power law in
-    U and G, k is the exponent of U minus the exponent of G. Raises an error for other laws. Source: K. L. Johnson, J.
-    A. Greenwood, S. Y. Poon, Wear 19 (1972) 91.
+    From the law, with effects on its film, at the load :math:`w/\gamma` and the modulus :math:`E'/\gamma` relative to w
+    and E'; for a power law in U and G, k is the exponent of U minus the exponent of G, at line and point contacts.
+    Raises an error for other laws. Source: K. L. Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91.
 
-    >>> from mixedlub.laws.film import dowson_higginson, dowson_toyoda
-    >>> round(sharing_exponent(dowson_toyoda), 12), round(sharing_exponent(dowson_higginson), 12)
-    (0.13, 0.16)
+    >>> from mixedlub.laws.film import dowson_higginson, dowson_toyoda, hamrock_dowson
+    >>> [round(sharing_exponent(law), 12) for law in (dowson_toyoda, dowson_higginson, hamrock_dowson)]
+    [0.13, 0.16, 0.14]
     """
-    names = tuple(inspect.signature(film_law).parameters)
-    if not _STEEL.keys() >= set(names):
-        raise InputError("needs a film law of the line contact's groups alone", where="balance")
+    if not _STEEL.keys() >= set(inspect.signature(film_law).parameters):
+        raise InputError("needs a film law of the contact's groups alone", where="balance")
+    model = Model((("film_thickness", film_law),), tuple(_STEEL), ("film_thickness",), effects)
 
     def film(ratio: float) -> float:
-        return float(film_law(*(_STEEL[n] / (ratio if n in _SHARED else 1.0) for n in names)))
+        contact = {name: value / (ratio if name in _SHARED else 1.0) for name, value in _STEEL.items()}
+        return float(model(contact, values)["film_thickness"])
 
     near, far = (np.log(film(ratio) / film(1.0)) / np.log(ratio) for ratio in (2.0, 1e3))
     if not (near > 0.0 and abs(far - near) < 1e-9):
@@ -180,10 +182,12 @@ def sharing_exponent(film_law: Law) -> float:
 _STEEL = {
     "radius": 0.01,
     "entrainment_speed": 2.0,
+    "transverse_radius": 0.01,
     "line_load": 2e5,
+    "load": 100.0,
     "viscosity": 0.015,
     "pressure_viscosity": 1.5e-8,
     "reduced_modulus": 2.26e11,
 }
 """A contact of steel (SI); a power law has the same exponent at any contact."""
-_SHARED = ("line_load", "reduced_modulus")
+_SHARED = ("line_load", "load", "reduced_modulus")

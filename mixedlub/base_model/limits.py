@@ -10,6 +10,7 @@ import numpy as np
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Step
 from mixedlub.chain.ranges import Ends, Limit, declared, of_law
+from mixedlub.laws.oil import D341_LEAST
 
 LEAST_HARD_MODULUS = 50e9
 """Judgement. Smallest reduced modulus (Pa) of metals, ceramics and glass."""
@@ -50,7 +51,15 @@ def contact_limits(inputs: Mapping[str, Any]) -> tuple[Limit, ...]:
 
 
 _SHARE, _NONE = (0.0, 1.0), (0.0, EXACT)
+_D341 = (1e-6 * D341_LEAST, np.inf)
 _OF_CONTACTS = (
+    Limit(
+        "viscosity_below_d341",
+        "kinematic_viscosity",
+        _D341,
+        "the oil is thinner than ASTM D341 describes, whose terms steepen there",
+        _D341,
+    ),
     Limit(
         "film_above_contact_width",
         "film_over_contact_width",

@@ -17,9 +17,11 @@ from mixedlub.effects import known_in
 from mixedlub.laws.contact import asperity_load_ratio
 from mixedlub.laws.film import film_over_contact_width
 from mixedlub.laws.load import carries_load
+from mixedlub.laws.oil import kinematic
 from mixedlub.schema.findings import Finding, Severity
 
 CHECKS: Chain = (
+    ("kinematic_viscosity", kinematic),
     ("film_over_contact_width", film_over_contact_width),
     ("asperity_load_ratio", asperity_load_ratio),
 )

@@ -28,7 +28,8 @@ class Parameter:
     recording in which the parameter is free (empty: all); elsewhere it stays at its null. ``published``: range of the
     laws cited in the source, if the prior is wider. ``relative_to``: input of which the parameter is a fraction, if
     any. ``nominal``: value of the cited laws, if the prior is centred on another value. ``base_sd``: standard deviation
-    about the null within which the base law itself is uncertain (0: exact).
+    about the null within which the base law itself is uncertain (0: exact). ``of_chain``: value that the laws of the
+    published case have under a chain, known effects and their parameter values, if it depends on them.
     """
 
     name: str
@@ -44,6 +45,7 @@ class Parameter:
     relative_to: str = ""
     nominal: float | None = None
     base_sd: float = 0.0
+    of_chain: Callable[[Any, Any, Any], float] | None = None
 
     @property
     def usual(self) -> float:

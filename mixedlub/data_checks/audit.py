@@ -42,8 +42,6 @@ SAME_SIZE = 0.05
 it."""
 THINNEST_OIL = 0.4
 """Judgement. Viscosity (mPa s) of the thinnest liquid for which the model holds."""
-THINNEST_D341 = 2e-6
-"""Source: ASTM D341. Kinematic viscosity (m2/s) down to which log log(nu + 0.7) is all of ASTM D341."""
 STUCK_ROWS, STUCK_SHARE = 5, 0.2
 """Judgement. Rows with exactly the same reading, and their share of all rows, from which a stuck channel is
 suspected."""
@@ -81,7 +79,6 @@ def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> 
         *unmodelled_losses(case.system.recording.includes, forward),
         *_setups(case, rows),
         *_scarce(y),
-        *_thin(case, y, forward),
         *of_odd_units(case, rows, y, base, FEWEST, SCARCE),
         *_more_than_put_in(case, rows, y),
         *_of_one_sign(case, rows, y),
@@ -170,21 +167,6 @@ def _setups(case: Case, rows: Table) -> list[Finding]:
         "or noise.setup_absolute"
     )
     return [finding("setups_pooled", text)]
-
-
-def _thin(case: Case, y: np.ndarray, forward: Forward) -> list[Finding]:
-    """Viscosities below the range of the base model's equation."""
-    if case.quantity != "viscosity_mPa_s":
-        return []
-    kinematic = 1e-3 * np.abs(y) / np.broadcast_to(forward.inputs["oil_density"], (y.size, 1))[:, 0]
-    low = int(np.count_nonzero(kinematic < THINNEST_D341))
-    if not low:
-        return []
-    text = (
-        f"{low} of {y.size} readings are below {1e6 * THINNEST_D341:g} mm2/s, where ASTM D341 has further terms that "
-        "the base model omits: a mismatch there may be due to these"
-    )
-    return [finding("viscosity_below_d341", text)]
 
 
 def _scarce(y: np.ndarray) -> list[Finding]:

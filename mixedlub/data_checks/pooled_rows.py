@@ -10,9 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub.schema.cells import are_numbers, is_missing
 from mixedlub.schema.dates import is_dated
 from mixedlub.schema.findings import Finding, finding
-from mixedlub.schema.table import Table, are_numbers, is_missing
+from mixedlub.schema.table import Table
 from mixedlub.schema.units import split, words_of
 
 THINGS = re.compile(

@@ -60,7 +60,8 @@ class Known:
 def known_effects(
     section: Mapping[str, Mapping[str, float | str]], kind: str, chain: Chain, given: Sequence[str], want: str
 ) -> Known:
-    """The effects of a section ``[effects]`` in a chain; omitted parameters have the values of a published law.
+    """The effects of a section ``[effects]`` in a chain; omitted parameters have the values of a published law, or of
+    the chain and the other effects where they depend on them.
 
     ``law`` names a published law in the effect and fixes its parameters; the default is the first law. NAME_sd is the
     standard deviation of the parameter NAME.
@@ -98,6 +99,10 @@ def known_effects(
                 values[e.id][name] = float(value)
             elif value > 0:
                 sds[e.id, name] = float(value)
+    for e in effects:
+        for p in e.parameters:
+            if p.of_chain is not None and p.name not in section[e.id]:
+                values[e.id][p.name] = p.of_chain(chain, effects, values)
     return Known(effects, values, sds)
 
 

@@ -52,7 +52,7 @@ _LEAST_LOAD = 0.1
     r"[x^b M_{0,i} + \chi c_1 x^{a-1} (1 + m\,\phi_{bl,i}) M_1],\quad "
     r"x = \max(\chi F_t/F_r,\ 0.1),\ F_r = 3\,\text{kN},\ "
     r"M_1 = f_1\,\tfrac12 F_t d_m,\ f_1 = 0.0003,\ d_m = 1.25\,r_1,\quad "
-    r"M_{0,i} = 2\times10^{-7}\,(N_i^4 + 2000^4)^{1/6} d_m^3,\ "
+    r"M_{0,i} = 2\times10^{-7}\,\max(N_i,\ 2000)^{2/3} d_m^3,\ "
     r"\phi_{bl,i} = \exp(-2.6\times10^{-8}\,N_i^{1.4} d_m),\ "
     r"N_i = \nu\,\frac{30\,\omega_i}{\pi},\ \nu = \frac{\eta_0}{\rho}\ "
     r"(\text{torques in N mm, lengths in mm, }\nu\text{ in mm}^2/\text{s})",

@@ -1,16 +1,29 @@
 """Film and asperities that share the load."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from mixedlub.base_model.balanced import balanced_film
-from mixedlub.chain.effect import Parameter, effect
+from mixedlub.base_model.balanced import balanced_film, sharing_exponent
+from mixedlub.chain.effect import Effect, Parameter, effect
+from mixedlub.chain.model import Chain, Parameters
 from mixedlub.chain.priors import LogNormal
 from mixedlub.laws.contact import pressure_per_overlap, summit_separation
 from mixedlub.laws.film import DOWSON_TOYODA
+from profiles.errors import InputError
 from roughness.integrals import load_integral
 
 EXPONENT = DOWSON_TOYODA.speed - DOWSON_TOYODA.material
-"""Of a line contact. It is 0.14 in a point contact by Hamrock and Dowson."""
+
+
+def exponent_of_film(chain: Chain, effects: Sequence[Effect], values: Parameters) -> float:
+    """Exponent of the film law of a chain, or of the effect that replaces it (-)."""
+    others = [e for e in effects if e.replaces == "film thickness"]
+    try:
+        return sharing_exponent(dict(chain)["film_thickness"], others, values)
+    except InputError as error:
+        laws = " and ".join(f"effects.{e.id}" for e in others) or "the film law"
+        raise InputError(f"{error.rule}, unlike {laws}; state it", where="effects.load_balance.exponent") from None
 
 
 @effect(
@@ -24,8 +37,9 @@ EXPONENT = DOWSON_TOYODA.speed - DOWSON_TOYODA.material
             "exponent",
             "-",
             LogNormal(EXPONENT, 0.3),
-            "exponent of whole over film load in the growth of the film",
+            "exponent of whole over film load in the growth of the film; that of the film law unless stated",
             symbol="k",
+            of_chain=exponent_of_film,
         ),
     ),
     equation=r"h \leftarrow h\,\gamma^{k},\quad \gamma = \frac{p_m}{p_m - c\,p_a},\quad "

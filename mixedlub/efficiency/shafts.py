@@ -1,4 +1,7 @@
-"""Bearing loads from mesh forces on shafts: by bearing positions, or by shares with the sum 1."""
+"""Bearing loads from mesh forces on shafts: by bearing positions, or by shares with the sum 1.
+
+The thrust that bearings with a contact angle induce in each other under radial load is not included.
+"""
 
 from __future__ import annotations
 
@@ -18,6 +21,8 @@ TOLERANCE = 0.005
 """Tolerance on a sum of shares from 1, for thirds written with three digits."""
 BALANCED = 1e-9
 """Net thrust over the largest thrust of a shaft below which thrusts cancel apart from rounding."""
+INDUCING = ("angular_contact", "tapered_roller")
+"""Types of single-row bearings with a contact angle; SKF's law of them is for such bearings without a named series."""
 SIGNS = {"positive": 1.0, "negative": -1.0}
 
 
@@ -111,7 +116,7 @@ Loads = dict[tuple[str, str], Load]
 
 
 def bearing_loads(stages: Mapping[str, Stage], pairs: Mapping[str, GearPair]) -> tuple[Loads, list[Finding]]:
-    """Loads of all bearings by stage and name, and findings on shafts without bearings."""
+    """Loads of all bearings by stage and name; findings on shafts without bearings and on induced thrust left out."""
     loads: Loads = {}
     bare: list[str] = []
     for wheels in _shafts(stages, pairs):
@@ -124,8 +129,26 @@ def bearing_loads(stages: Mapping[str, Stage], pairs: Mapping[str, GearPair]) ->
             raise InputError("every bearing of a shared shaft needs position_mm", where=wheels[0].shaft)
         else:
             loads |= _by_shares(wheels[0])
-    text = f"no bearings on the shafts of {', '.join(bare)}: their losses are left out"
-    return loads, [finding("shaft_without_bearings", text, "stages")] if bare else []
+    notes = []
+    if bare:
+        text = f"no bearings on the shafts of {', '.join(bare)}: their losses are left out"
+        notes.append(finding("shaft_without_bearings", text, "stages"))
+    induced = [
+        f"{name}.{key}" for name, stage in stages.items() for key, one in stage.bearings.items() if _induces(one)
+    ]
+    if induced:
+        text = (
+            f"the thrust that bearings with a contact angle induce in each other is left out of {', '.join(induced)}: "
+            "give it as axial_load_N, by the catalogue"
+        )
+        notes.append(finding("induced_thrust_left_out", text, "stages"))
+    return loads, notes
+
+
+def _induces(bearing: Bearing) -> bool:
+    """Whether a bearing has a contact angle, and no axial load of its own."""
+    angled = bearing.series in INDUCING or (bearing.law == "skf_angular_contact" and bearing.series is None)
+    return angled and bearing.axial_load_N == 0.0
 
 
 def _shafts(stages: Mapping[str, Stage], pairs: Mapping[str, GearPair]) -> Iterator[list[Wheel]]:

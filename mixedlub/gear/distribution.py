@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mixedlub.gear.checks import torques_above_zero
+from mixedlub.gear.checks import number, torques_above_zero, two, whole
 from mixedlub.gear.compliance import SAINSOT_ANGLES
 from mixedlub.gear.contact_lines import contact_limits, rise
 from mixedlub.gear.contact_solver import share_out, stiffness_of
 from mixedlub.gear.corner_contact import REACH, corner_gap
-from mixedlub.gear.geometry import GearPair, Pair, number, two, whole
+from mixedlub.gear.geometry import GearPair, Pair
 from mixedlub.gear.influence import body_torsion, flattening, tooth_influence
 from mixedlub.gear.modifications import Modifications
 from mixedlub.gear.tooth import tooth

@@ -7,11 +7,11 @@ Letters follow the usual picture: A start, B and D single-contact limits, C pitc
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from mixedlub.gear.checks import number, two
 from mixedlub.laws.contact import reduced_modulus
 from mixedlub.schema.findings import finding, report
 from profiles.errors import InputError
@@ -44,36 +44,6 @@ def inverse_involute(value: float) -> float:
         if abs(step) <= 1e-15 * max(angle, 1e-6):
             break
     return angle
-
-
-def number(key: str, value: Any, low: float, high: float, rule: str, scale: float = 1.0) -> float:
-    """A finite float strictly between ``low`` and ``high``; messages show it in the unit of its key."""
-    if isinstance(value, (bool, str, bytes)):
-        raise InputError(rule, where=key, value=value)
-    try:
-        finite = float(value)
-    except (TypeError, ValueError, OverflowError):
-        raise InputError(rule, where=key, value=value) from None
-    if not (math.isfinite(finite) and low < finite < high):
-        raise InputError(rule, where=key, value=round(finite * scale, 9))
-    return finite
-
-
-def whole(key: str, value: Any, low: int, high: int) -> int:
-    """A whole number from ``low`` to ``high``."""
-    if isinstance(value, bool) or not hasattr(value, "__index__") or not low <= value <= high:
-        raise InputError(f"a whole number from {low} to {high}", where=key, value=value)
-    return int(value)
-
-
-def two(key: str, values: Any) -> tuple[Any, Any]:
-    """The two entries, pinion first, of a quantity of both wheels."""
-    if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
-        raise InputError("two values are needed, pinion first", where=key, value=values)
-    entries = tuple(values)
-    if len(entries) != 2:
-        raise InputError("two values are needed, pinion first", where=key, value=entries)
-    return entries
 
 
 def _only_external(teeth: tuple[Any, Any]) -> None:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
+from mixedlub.gear.checks import number
 from mixedlub.gear.compliance import iso_single_stiffness
-from mixedlub.gear.geometry import GearPair, number
+from mixedlub.gear.geometry import GearPair
 from mixedlub.schema.findings import finding, report
 
 CORRECTION = 0.8

@@ -15,8 +15,8 @@ from typing import Protocol, runtime_checkable
 
 import numpy as np
 
-from mixedlub.gear.checks import column, torques_above_zero
-from mixedlub.gear.geometry import GearPair, whole
+from mixedlub.gear.checks import column, torques_above_zero, whole
+from mixedlub.gear.geometry import GearPair
 from mixedlub.laws.load import gear_line_load
 from mixedlub.schema.findings import Finding
 from profiles.errors import InputError, refuse_other

@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.gear.geometry import GearPair, Pair, two
+from mixedlub.gear.checks import two
+from mixedlub.gear.geometry import GearPair, Pair
 from profiles.errors import InputError
 
 

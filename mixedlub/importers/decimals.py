@@ -113,7 +113,9 @@ def is_written_number(cell: str) -> bool:
 
 def _is_other(cell: str, mark: str) -> bool:
     """Whether a cell is a number only with this decimal mark."""
-    return WITH_ONE[mark].fullmatch(cell) is not None and not GROUPED[mark].fullmatch(cell)
+    return WITH_BOTH[mark].fullmatch(cell) is not None or (
+        WITH_ONE[mark].fullmatch(cell) is not None and not GROUPED[mark].fullmatch(cell)
+    )
 
 
 def _decided(written: Set[str], inner: Callable[[], Iterator[Place]], outside: Sequence[Line], name: str) -> str:

@@ -10,8 +10,8 @@ from pathlib import Path
 from mixedlub.importers.base import HIDDEN_ROWS, SHEET, Answers, read_note
 from mixedlub.importers.odd_rows import count, places
 from mixedlub.importers.text_table import Sheet, read_sheet
+from mixedlub.schema.cells import with_hyphens
 from mixedlub.schema.findings import Finding, finding
-from mixedlub.schema.table import with_hyphens
 from profiles.errors import InputError, nearest, refuse_no_file
 from profiles.readers.archive import refuse_broken, unpacked
 from profiles.readers.base import MAX_BYTES

@@ -16,8 +16,9 @@ from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, WEIGHED, Target
 from mixedlub.kinds import KINDS
 from mixedlub.kinds import kind as kind_of
 from mixedlub.running.shell import quoted
+from mixedlub.schema.cells import is_missing
 from mixedlub.schema.dates import is_dated
-from mixedlub.schema.table import Column, is_missing
+from mixedlub.schema.table import Column
 from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import fits, is_unit, split, words_of
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 
 from mixedlub.importers.decimals import Line
-from mixedlub.schema.table import is_number
+from mixedlub.schema.cells import is_number
 
 LINES_SHOWN = 5
 """Most lines listed in a note."""

@@ -18,8 +18,8 @@ from mixedlub.importers.odd_rows import count, places
 from mixedlub.importers.text_table import not_above_zero
 from mixedlub.importers.vocabulary import BY_NAME, convert, target_of
 from mixedlub.kinds import kind as kind_of
+from mixedlub.schema.cells import is_missing, is_number
 from mixedlub.schema.findings import Finding, finding
-from mixedlub.schema.table import is_missing, is_number
 from mixedlub.schema.units import rounded, split
 from profiles.errors import InputError, nearest
 

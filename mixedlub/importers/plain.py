@@ -38,8 +38,9 @@ from mixedlub.importers.vocabulary import convert
 from mixedlub.kinds import KINDS, Kind
 from mixedlub.kinds import kind as kind_of
 from mixedlub.running.shell import quoted
+from mixedlub.schema.cells import is_number
 from mixedlub.schema.findings import Finding, finding
-from mixedlub.schema.table import Column, is_number
+from mixedlub.schema.table import Column
 from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import unit_of
 from profiles.errors import InputError, nearest

@@ -15,7 +15,8 @@ from mixedlub.importers.base import Answers
 from mixedlub.importers.decimals import Line, common_length, is_written_number, with_points
 from mixedlub.importers.header import header_of
 from mixedlub.importers.odd_rows import cleared, count, places, without_repeated_headers, without_summaries
-from mixedlub.schema.table import LARGEST, are_numbers, csv_rows, is_missing, is_number
+from mixedlub.schema.cells import are_numbers, csv_rows, is_missing, is_number
+from mixedlub.schema.table import LARGEST
 from mixedlub.schema.units import words_of
 from profiles.errors import InputError, nearest
 from profiles.readers.workbook import UNCALCULATED

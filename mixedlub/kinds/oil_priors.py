@@ -68,7 +68,7 @@ def moved(oil: Lubricant, pivot: float, level: float = 1.0, slope: float = 1.0) 
     [34.0, 14.3]
     """
     at_pivot = oil.viscosity(np.array(pivot)) / oil.density(np.array(pivot))
-    before, after = to_d341(at_pivot), to_d341(np.maximum(level * at_pivot, THINNEST))
+    before, after = (to_d341(np.maximum(nu, THINNEST)) for nu in (at_pivot, level * at_pivot))
     known = (to_d341(np.array(nu)) for nu in oil.kinematic_viscosity)
     lowest, highest = to_d341(np.array([THINNEST, THICKEST]))
     first, second = (float(from_d341(np.clip(after + slope * (z - before), lowest, highest))) for z in known)

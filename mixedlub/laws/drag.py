@@ -180,9 +180,10 @@ def palmgren_idle_torque(
 ) -> np.ndarray:
     r"""Torque of one unloaded rolling bearing (N m); f_0 = 2 is a deep-groove ball bearing in an oil bath.
 
-    .. math:: M_0 = 10^{-7} f_0 (\nu n)^{2/3} d_m^3\ \text{N mm},\quad \nu n \ge 2000\ \text{mm}^2/\text{s rpm}
+    .. math:: M_0 = 10^{-7} f_0 \max(\nu n,\ 2000\ \text{mm}^2/\text{s rpm})^{2/3} d_m^3\ \text{N mm}
 
-    and constant below, the two joined smoothly. Its constant makes the form belong to SI.
+    Below 2000 the source rounds 158.7 to 160, 0.8 % more, which would be a step. Its constant makes the form belong to
+    SI.
     Source: A. Palmgren, Grundlagen der Waelzlagertechnik, 1964; ISO/TR 14179-2.
 
     >>> torque = palmgren_idle_torque(15e-6 * 850, 850.0, 1500 * np.pi / 30, 0.045)
@@ -190,7 +191,7 @@ def palmgren_idle_torque(
     14.5
     """
     motion = _oil_motion(viscosity, oil_density, wheel_speed)
-    return factor * 1e-7 * (motion**4 + 2000.0**4) ** (1.0 / 6.0) * (bearing_diameter * 1e3) ** 3 * 1e-3
+    return factor * 1e-7 * np.maximum(np.abs(motion), 2000.0) ** (2.0 / 3.0) * (bearing_diameter * 1e3) ** 3 * 1e-3
 
 
 def palmgren_load_torque(

@@ -37,10 +37,10 @@ def bearing_palmgren(
 ) -> np.ndarray:
     r"""Torque of a rolling bearing (N m): of the oil, and of the load. SKF's model until its catalogue of 1994.
 
-    .. math:: M = 10^{-7} f_0 (\nu n)^{2/3} d_m^3 + f_1 P_1 d_m,\quad P_1 = \max(F_r,\ Y F_a - 0.1F_r)
+    .. math:: M = 10^{-7} f_0 \max(\nu n,\ 2000)^{2/3} d_m^3 + f_1 P_1 d_m,\quad P_1 = \max(F_r,\ Y F_a - 0.1F_r)
 
-    with N, mm, mm^2/s and rpm; below nu n = 2000 the first part is constant. Y is 3 for deep groove ball
-    bearings, and to be given for others; without axial load P_1 is the radial load.
+    with N, mm, mm^2/s and rpm. Y is 3 for deep groove ball bearings, and to be given for others; without axial load P_1
+    is the radial load.
 
     Source: A. Palmgren, Grundlagen der Waelzlagertechnik, 1964; ISO/TR 14179-2.
 

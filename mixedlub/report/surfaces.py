@@ -126,14 +126,17 @@ def not_gaussian(judged: Judged) -> list[Finding]:
 def provenance(study: Study) -> list[tuple[str, str]]:
     """Source of each surface: moments as given, or a trace with its processing steps."""
     sections = study.file.surfaces
-    return [(name, _origin(sections[name], s.steps)) for name, s in list(study.surfaces.items())[: 4 * MOST_CURVES]]
+    shown = list(study.surfaces.items())[: 4 * MOST_CURVES]
+    return [(name, _origin(sections[name], s)) for name, s in shown]
 
 
-def _origin(section: SurfaceSection, steps: Sequence[str]) -> str:
-    """Files of a surface, and the processing steps of the first."""
+def _origin(section: SurfaceSection, surface: Surface) -> str:
+    """Files of a surface, and the processing steps of the first, or the cut-offs of a map."""
     if section.map is not None:
-        return f"map {section.map}"
+        used = (("short cut-off", surface.short_cutoff), ("cut-off", surface.cutoff))
+        cutoffs = (f"no {name}" if length is None else f"{name} {1e6 * length:.6g} um" for name, length in used)
+        return f"map {section.map}: {', '.join(cutoffs)}"
     if not section.files:
         return "moments as given"
     along = f"; along the lay {', '.join(section.traces_along)}" if section.traces_along else ""
-    return f"{', '.join(section.files)}{along}: {'; '.join(steps)}"
+    return f"{', '.join(section.files)}{along}: {'; '.join(surface.steps)}"

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mixedlub.laws.oil import ZERO_CELSIUS, gold_pressure_viscosity
-from mixedlub.rig.lubricant import ROELANDS, Lubricant
+from mixedlub.rig.lubricant import GOLD, LINEAR, ROELANDS, Lubricant
 from mixedlub.rig.measured import Measured, Traces
 from mixedlub.rig.oil_doubts import doubts
 from mixedlub.rig.surface import Surface
@@ -97,6 +97,7 @@ def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (
         heat_capacity=full["specific_heat_J_kgK"],
         pressure_modulus=None if modulus is None else (modulus[0] * 1e6, modulus[1] * 1e6),
         modulus_slope=full.get("pressure_modulus_slope"),
+        carried=GOLD if "pressure_viscosity_per_GPa" not in known and a1 > 0.0 else LINEAR,
     )
     if section.known_pressure_viscosity is not None:
         oil = _carried(oil, section.known_pressure_viscosity, section.base or DEFAULT_BASE, unread)
@@ -341,6 +342,8 @@ def surface(name: str, section: surface_file.SurfaceSection, found: Measured | N
         density=section.density_kg_m3,
         heat_capacity=section.specific_heat_J_kgK,
         steps=() if found is None else found.steps,
+        cutoff=None if found is None else found.cutoffs.get("cutoff"),
+        short_cutoff=None if found is None else found.cutoffs.get("short_cutoff"),
     )
     if made.bandwidth < LEAST_NAYAK:
         text = f"Nayak alpha is {made.bandwidth:.2f}, below the 1.5 of any isotropic Gaussian surface"

@@ -171,6 +171,14 @@ class Measured:
         return profile.heights[profile.valid]
 
     @property
+    def cutoffs(self) -> Mapping[str, float]:
+        """Cut-offs of the filters applied to the map or the traces across the lay (m)."""
+        if self.area is not None:
+            return self.area.cutoffs
+        assert self.across is not None
+        return self.across.filtered[0].cutoffs
+
+    @property
     def steps(self) -> tuple[str, ...]:
         """Processing steps of the first trace; empty for a map."""
         return () if self.across is None else self.across.filtered[0].steps

@@ -18,7 +18,8 @@ class Surface:
 
     ``m2`` and ``m4`` are across the ``lay`` if known, ``m2_along`` and ``m4_along`` along it (None without a lay).
     ``peklenik``: correlation length across over along the lay; ``steps``: processing of the trace; ``mean_over_rms``:
-    measured Ra over sqrt(m0).
+    measured Ra over sqrt(m0). ``cutoff``, ``short_cutoff``: wavelengths of the applied filters (m); None if there are
+    none.
     """
 
     name: str
@@ -36,6 +37,8 @@ class Surface:
     m4_along: float | None = None
     peklenik: float | None = None
     mean_over_rms: float | None = None
+    cutoff: float | None = None
+    short_cutoff: float | None = None
 
     @property
     def mean_roughness(self) -> float:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import csv
 import difflib
-import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mixedlub.schema.cells import csv_rows, is_missing, with_hyphens
 from mixedlub.schema.findings import Finding, finding, listed, report
 from mixedlub.schema.ranges import probable_unit
 from mixedlub.schema.units import fits, read_as, split, unit_of, words_of
@@ -94,9 +94,6 @@ class Column:
 
 LARGEST = 2**53
 """Largest integer up to which doubles represent all integers."""
-PRINTED_MINUS = re.compile(r"(?:(?<=\d[eE])|(?<![\w)]))\u2212(?=[\d.,])")
-BLANK = ("", "-", "--", "---", "\u2013", "\u2014", "nan", "na", "n/a", "n.a.", "#n/a", "#nv", "null", "none")
-"""Texts of an empty cell, in lower case."""
 RUN = Column("run", "whole", meaning="number of the reading, each once")
 BOOKKEEPING = (
     Column("rig", "name", required=False, meaning="which rig or part of it; all share the calibration"),
@@ -146,44 +143,6 @@ class Table:
         return Table({name: column[rows] for name, column in self.columns.items()}, self.source)
 
 
-def is_missing(cell: str) -> bool:
-    """Whether a cell denotes a missing value.
-
-    >>> [is_missing(cell) for cell in ("", "n/a", " - ", "NaN", "0", "-1", "abc")]
-    [True, True, True, True, False, False, False]
-    """
-    return cell.strip().lower() in BLANK
-
-
-def is_number(cell: str) -> bool:
-    """Whether a cell is a number."""
-    try:
-        number_of(cell)
-    except ValueError:
-        return False
-    return True
-
-
-def are_numbers(cells: Collection[str]) -> bool:
-    """Whether all cells are numbers or empty, with at least one number.
-
-    >>> are_numbers(["1", "n/a", "2"]), are_numbers(["1", "stuck"]), are_numbers(["", ""])
-    (True, False, False)
-    """
-    if not all(is_number(cell) or is_missing(cell) for cell in cells):
-        return False
-    return not cells or not all(map(is_missing, cells))
-
-
-def with_hyphens(text: str) -> str:
-    """Text with a hyphen in place of the typographic minus (U+2212) before numbers.
-
-    >>> with_hyphens("\u22120.5;1.2e\u22123;m s\u22121")
-    '-0.5;1.2e-3;m s\u22121'
-    """
-    return PRINTED_MINUS.sub("-", text)
-
-
 def read_table(
     path: Path,
     columns: tuple[Column, ...],
@@ -227,31 +186,6 @@ def read_table(
     text = f"no column {RUN.name}: rows are numbered from {runs[0]} to {runs[-1]}"
     report(finding("runs_numbered", text, path.name))
     return replace(found, columns={RUN.name: runs, **found.columns})
-
-
-def csv_rows(
-    numbered: Sequence[tuple[int, str]], where: str, separator: str = ",", *, headings: bool = False
-) -> Iterator[tuple[int, list[str]]]:
-    """Cells of numbered lines; raise an error for a quoted cell that continues in the next line.
-
-    With ``headings``, cells of words may continue, as in headings of spreadsheets; a blank replaces the line end.
-
-    >>> list(csv_rows([(3, 'a,"b, c"')], "t.csv"))
-    [(3, ['a', 'b, c'])]
-    >>> list(csv_rows([(3, 'a,"b'), (4, 'c"')], "t.csv"))
-    Traceback (most recent call last):
-    ...
-    profiles.errors.InputError: t.csv: line 3: 'b c': a quoted cell must end in its line
-    """
-    reader, first = csv.reader((f"{line}\n" for _, line in numbered), delimiter=separator), 0
-    for row in reader:
-        number = numbered[first][0]
-        broken = [cell for cell in row if "\n" in cell and not (headings and separator not in cell)]
-        if broken:
-            rule = "a quoted cell must end in its line"
-            raise InputError(rule, where=f"{where}: line {number}", value=" ".join(broken[0].split()))
-        yield number, [cell.replace("\n", " ") for cell in row] if headings else row
-        first = reader.line_num
 
 
 def span(name: str, values: np.ndarray) -> str:

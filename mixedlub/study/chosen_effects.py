@@ -12,7 +12,7 @@ from mixedlub.chain.slots import SLIDING_POWER, STEPS
 from mixedlub.effects import LAW, find, known_effects, known_in
 from mixedlub.schema.findings import finding, report
 from mixedlub.schema.system_file import Gears, LoadSharing
-from mixedlub.study.heat import check_exponent
+from mixedlub.study.heat import BULK, check_exponent
 from mixedlub.study.options import study_chain
 from mixedlub.study.schema import Options, StudyFile
 from profiles.errors import InputError
@@ -31,6 +31,7 @@ def chosen_effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Ef
         _refuse_ignored(e, file.options)
         _refuse_second_law(e, file.options)
         _refuse_stated_teeth(e, file.gears.load_sharing)
+        _refuse_stated_rise(e, file.options)
     known = known_effects(file.effects, "gear_pair", study_chain(file.options), tuple(inputs), "power_loss")
     for effect, name in known.sds:
         raise InputError("a study has no uncertainty; leave it out", where=f"effects.{effect}.{name}_sd")
@@ -80,6 +81,13 @@ def _refuse_stated_teeth(e: Effect, sharing: LoadSharing) -> None:
             f"and gears.load_sharing.{stated[0]} state the same part of the load sharing twice; leave one of them out"
         )
         raise InputError(rule, where=f"effects.{e.id}")
+
+
+def _refuse_stated_rise(e: Effect, options: Options) -> None:
+    """Raise an error for the effect of warm teeth beside a stated temperature of the oil at the inlet."""
+    if e.id == BULK and options.bulk_temperature_rise_K:
+        rule = "and options.bulk_temperature_rise_K state the temperature of the teeth twice; leave one of them out"
+        raise InputError(rule, where=f"effects.{BULK}")
 
 
 def _tell_defaults(e: Effect, given: Mapping[str, float | str], values: Mapping[str, float]) -> None:

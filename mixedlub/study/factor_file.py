@@ -37,7 +37,7 @@ class Factors(Section):
         "normal modules; tip diameters and centre distance go with them", None, example=[3.0, 4.5], alternative=True
     )
     oil: Names | None = key(
-        "oils, by name or file; each takes the place of [lubricant]", None, example=["n100", "pao100"]
+        "oils, by name or file; each takes the place of [lubricant]", None, example=["m100", "pao_vg100"]
     )
     load_sharing: Names | None = key(
         "models of load sharing, by name", None, example=["rigid", "ldp"], alternative=True

@@ -61,11 +61,17 @@ def resolved(study: Study) -> dict[str, Any]:
         "derived": {"gears": _geometry(study), "surfaces": {n: asperities(s) for n, s in study.surfaces.items()}},
         "traces": {
             name: file.surfaces[name].model_dump(include=set(SURFACE_FILES), exclude_none=True)
-            | {"steps": list(s.steps)}
+            | {"steps": list(s.steps), **_cutoffs(s)}
             for name, s in study.surfaces.items()
             if file.surfaces[name].is_measured
         },
     }
+
+
+def _cutoffs(surface: Surface) -> dict[str, float | None]:
+    """Cut-offs by the keys of a surface; None where no filter was applied."""
+    used = {"cutoff_mm": (surface.cutoff, 1e3), "short_cutoff_um": (surface.short_cutoff, 1e6)}
+    return {key: None if length is None else _plain(length * scale) for key, (length, scale) in used.items()}
 
 
 def _base(study: Study) -> dict[str, str]:

@@ -10,6 +10,7 @@ import numpy as np
 from mixedlub.base_model.limits import BALANCE, contact_limits
 from mixedlub.chain.ranges import EXTRAPOLATED, Reached, findings, flags
 from mixedlub.chain.slots import SLOTS
+from mixedlub.laws.oil import kinematic
 from mixedlub.schema.findings import Finding
 from mixedlub.study.batch import BEYOND
 from mixedlub.study.plan import Plan, Study
@@ -36,7 +37,9 @@ def reached(plan: Plan, values: Mapping[str, np.ndarray]) -> Reached:
     moments = [np.asarray(plan.inputs[name]).reshape(-1, 1, 1, 1) for name in ("m0", "m2", "m4")]
     with np.errstate(divide="ignore", over="ignore"):
         known = {"nayak_bandwidth": nayak_parameter(*moments)}
-    known |= {"oil_temperature": np.asarray(plan.inputs["oil_temperature"])[..., 0], **values}
+    nu = kinematic(plan.inputs["viscosity"], plan.inputs["oil_density"])
+    at_oil = {"oil_temperature": plan.inputs["oil_temperature"], "kinematic_viscosity": nu}
+    known |= {name: np.asarray(value)[..., 0] for name, value in at_oil.items()} | dict(values)
     of_contact = [(limit, known[limit.quantity]) for limit in contact_limits(plan.inputs) if limit.quantity in known]
     return [*of_contact, *((limit, values[BEYOND + limit.key]) for limit in plan.limits)]
 

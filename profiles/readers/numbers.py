@@ -15,6 +15,8 @@ from profiles.readers.base import MAX_POINTS
 from profiles.units import known_unit, number_of
 
 _NUMBER = re.compile(r"[-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d+)?\Z")
+_WRITTEN = re.compile(r"[-+]?[\d.,]*\d[\d.,]*(?:[eE][-+]?\d+)?\Z")
+"""Number with marks that may separate thousands too."""
 _ABSENT = re.compile(r"[-+]?(?:nan|inf|infinity|n/a|na|null|none|-+|\*+|#n/a|bad)\Z", re.IGNORECASE)
 _SAMPLE = 200
 _COUNT = re.compile(r"\d{1,9}\Z")
@@ -158,11 +160,28 @@ def table(text: str, where: str) -> Table:
         raise InputError(f"at most {MAX_POINTS} points can be read", where=where, value=len(body))
     sample = [line for line in body[:_SAMPLE] if line.strip() and _is_numbers(line)]
     delimiter, comma = _style(sample, next((line for line in reversed(lines[:first]) if line.strip()), ""))
+    if delimiter != ",":
+        _refuse_both_marks(body, delimiter, where, first + 1)
     width = Counter(len(split(line, delimiter)) for line in sample).most_common(1)[0][0]
     columns = _parse(body, delimiter, comma, width, where, first + 1)
     below = next((i for i in range(end, len(lines)) if lines[i].strip()), end)
     footer = tuple(line for line in lines[below:] if line.strip())
     return Table(tuple(lines[:first]), columns, delimiter, _quantum(sample, delimiter), counted, footer, below + 1)
+
+
+def _refuse_both_marks(body: list[str], delimiter: str | None, where: str, first: int) -> None:
+    """Refuse numbers with a decimal comma beside numbers with a decimal point."""
+    if not (any("," in line for line in body) and any("." in line for line in body)):
+        return
+    cells = [(number, cell) for number, line in enumerate(body, first) for cell in split(line, delimiter)]
+    marks = [max(cell.rfind(","), cell.rfind(".")) if _WRITTEN.match(cell) else -1 for _, cell in cells]
+    comma, point = (
+        next((one for one, at in zip(cells, marks, strict=True) if at >= 0 and one[1][at] == mark), None)
+        for mark in ",."
+    )
+    if comma is not None and point is not None:
+        rule = f"has a decimal comma, line {point[0]} has a decimal point ({point[1]!r}); write all numbers in one way"
+        raise InputError(rule, where=f"{where}: line {comma[0]}", value=comma[1])
 
 
 def _end_of_numbers(lines: list[str], start: int, where: str) -> int:

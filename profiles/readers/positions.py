@@ -80,6 +80,6 @@ def _resampled(
     before = np.clip(np.searchsorted(positions, places, side="right") - 1, 0, steps.size - 1)
     inside = present[before] & present[before + 1] & (steps[before] <= GAP * step)
     measured = np.where(places - positions[before] <= 1e-6 * step, present[before], inside)
-    said = f"{RESAMPLED} by a cubic spline, as its steps are {steps.min():.4g} to {steps.max():.4g}"
+    said = f"{RESAMPLED} of {step:.4g} by a cubic spline, as its steps are {steps.min():.4g} to {steps.max():.4g}"
     z = PchipInterpolator(positions, heights)(places)
     return Sampled(bridged(z, measured, where), measured, step, (*notes, said))

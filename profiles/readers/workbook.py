@@ -6,7 +6,7 @@ import csv
 import io
 import re
 import warnings
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 from xml.parsers import expat
@@ -23,6 +23,8 @@ _NUMBER = re.compile(
 )
 _THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d*)?")
 """A number with commas as thousands separators."""
+_ENGLISH = re.compile(r"[-+]?[1-9]\d{0,2}(?:(?:,\d{3})+\.\d*|(?:,\d{3}){2,})")
+"""A number with commas that can only be thousands separators."""
 _POINTED = re.compile(r"[-+]?[1-9]\d{0,2}(?:\.\d{3})+")
 """A number with points that may be thousands separators."""
 LAST_ROW, LAST_COLUMN = 1_048_576, 16_384
@@ -67,7 +69,7 @@ def worksheets(data: bytes, where: str) -> tuple[Worksheet, ...]:
         apply_stylesheet(reader.archive, reader.wb)
         found = [(sheet, rel) for sheet, rel in reader.parser.find_sheets() if rel.target in reader.valid_files]
         return tuple(
-            _Rows(reader, sheet.name, sheet.state != "visible").read(reader.archive.read(relation.target))
+            _Rows(reader, where, sheet.name, sheet.state != "visible").read(reader.archive.read(relation.target))
             for sheet, relation in found
             if "chartsheet" not in relation.Type
         )
@@ -89,6 +91,7 @@ class _Rows:
     """The rows of one sheet as its XML is parsed."""
 
     reader: Any
+    where: str
     name: str
     is_hidden: bool
     cells: dict[int, list[str]] = field(default_factory=dict)
@@ -120,6 +123,7 @@ class _Rows:
         texts = [self.cells[row][column] for row, column in self.texts]
         if any("," in text and not _THOUSANDS.fullmatch(text) for text in texts):
             placed = [(row, column, text) for (row, column), text in zip(self.texts, texts, strict=True)]
+            self._refuse_both_marks(placed)
             points = {
                 column for _, column, text in placed if "." in text and "," not in text and not _POINTED.fullmatch(text)
             }
@@ -138,6 +142,20 @@ class _Rows:
         return Worksheet(
             self.name, table.getvalue(), rows, _letters(self.percent), as_text, self.is_hidden, tuple(self.hidden)
         )
+
+    def _refuse_both_marks(self, placed: Sequence[tuple[int, int, str]]) -> None:
+        """Refuse a text with a decimal comma beside a text whose commas separate thousands."""
+        commas = [one for one in placed if "," in one[2]]
+        other = next((one for one in commas if _ENGLISH.fullmatch(one[2])), None)
+        if other is not None:
+            row, column, text = next(one for one in commas if not _THOUSANDS.fullmatch(one[2]))
+            (first,), (second,) = _letters([column]), _letters([other[1]])
+            rule = (
+                f"has a decimal comma, cell {second}{other[0]} separates thousands by commas ({other[2]!r}); write all "
+            )
+            raise InputError(
+                f"{rule}numbers in one way", where=f"{self.where}: sheet {self.name!r}, cell {first}{row}", value=text
+            )
 
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
         if ":" in tag:

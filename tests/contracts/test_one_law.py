@@ -102,6 +102,15 @@ def test_an_option_and_an_effect_never_apply_a_law_twice(
         assert found == pytest.approx(loss({**options, **BY_OPTION[effect, law]}, {}), rel=1e-6)
 
 
+def test_two_effects_of_two_steps_are_as_two_options(loss: Any) -> None:
+    options = {
+        **BY_OPTION["film_law", "Dowson and Higginson"],
+        **BY_OPTION["load_balance", "Johnson, Greenwood and Poon"],
+    }
+    found = loss({}, {"film_law": {"law": "Dowson and Higginson"}, "load_balance": {}})
+    assert found == pytest.approx(loss(options, {}), rel=1e-9)
+
+
 @pytest.mark.parametrize(
     ("effect", "options"),
     [

@@ -56,6 +56,43 @@ def test_each_item_is_there_once_and_says_what_lacks(text):
         assert how != "none" or status.split(":")[0] in ("no", "not reproducible"), name
 
 
+COMPARED = {
+    (1, "claim 1"): (
+        "A: mean friction, 20 to 95 m/s, geometry B, ground",
+        "A: mean friction, 20 to 95 m/s, geometry B, super",
+    ),
+    (1, "claim 2"): ("A: mean friction, ground to superfinished",),
+    (1, "claim 3"): ("A: mean friction, geometry A to B",),
+    (1, "claim 4"): ("A: mean friction, 1900 to 4000 N m",),
+    (1, "claim 5"): ("A: mean friction, oil 80 to 120 °C",),
+    (3, "claim 1"): ("C: friction of fluid A over",),
+    (3, "claim 2"): ("C: friction of fluid A, inlet",),
+    (3, "claim 3"): ("C: friction of fluid A, slide-to-roll",),
+    (3, "claim 4"): ("C: friction of fluid A, rolling speed",),
+    (3, "further claim 1"): ("C: friction of fluid A, load",),
+    (3, "further claim 2"): ("C: Hertz pressure of the baseline",),
+    (4, "claim 1"): ("B: largest friction, 800 rpm",),
+    (4, "claim 2"): ("B: largest friction, 6000 rpm",),
+    (4, "claim 3"): ("B: 78 to 141 %",),
+    (4, "claim 5"): ("B: pitch point over",),
+    (4, "claim 7"): ("B: Hertz pressure", "B: half width"),
+    (4, "claim 8"): ("B: film (",),
+    (4, "claim 9"): ("B: rise of the film",),
+    (4, "figure 12"): ("B: rise of the film",),
+}
+"""Items with a number of the page of published numbers, by paper, and the beginnings of its rows."""
+
+
+@pytest.mark.parametrize(("item", "beginnings"), COMPARED.items())
+def test_an_item_has_the_number_of_the_page_that_is_computed(item, beginnings):
+    """The first table of that page has the base model in its third column."""
+    computed = (PAGES.parent / "examples" / "published" / "points.md").read_text(encoding="utf-8")
+    (how,) = (" ".join(row[2:]) for row in rows(PAPERS[item[0] - 1]) if row[0] == item[1])
+    for beginning in beginnings:
+        base = next(row[2] for row in rows(computed) if row[0].startswith(beginning))
+        assert base in how, beginning
+
+
 @pytest.fixture(scope="module")
 def declared():
     """Keys of sections and effects; and texts of the source that are one name: of columns, tables, figures, kinds."""

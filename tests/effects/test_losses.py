@@ -52,10 +52,13 @@ def test_churning_of_changenet_and_velex(rpm: float, watts: float) -> None:
 
 
 @pytest.mark.literature("Palmgren (1964), Grundlagen der Waelzlagertechnik; ISO/TR 14179-2")
-def test_palmgren_joins_its_two_ranges() -> None:
-    """160e-7 f0 d^3 below nu n of 2000 mm^2/s rpm."""
-    slow = drag.palmgren_idle_torque(1e-6 * 850, 850.0, np.pi / 30, 0.045)
-    assert slow == pytest.approx(160e-7 * 2 * 45**3 * 1e-3, rel=0.01)
+@pytest.mark.parametrize(("motion", "within"), [(1.0, 0.01), (1999.0, 0.01), (2000.0, 1e-9), (2500.0, 1e-9)])
+def test_palmgren_has_two_ranges(motion: float, within: float) -> None:
+    """160e-7 f0 d^3 below nu n of 2000 mm^2/s rpm, 1e-7 f0 (nu n)^(2/3) d^3 above."""
+    printed = (160.0 if motion < 2000.0 else motion ** (2 / 3)) * 1e-7 * 2 * 45**3 * 1e-3
+    for speed in (np.pi / 30, -np.pi / 30):
+        torque = drag.palmgren_idle_torque(motion * 1e-6 * 850, 850.0, speed, 0.045)
+        assert torque == pytest.approx(printed, rel=within)
 
 
 @pytest.mark.literature("Goksem and Hargreaves (1978), J. Lubr. Technol. 100, 346, doi:10.1115/1.3453183")

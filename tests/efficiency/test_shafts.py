@@ -179,6 +179,20 @@ class TestFindings:
         for bearing, torque in ((SEAT, [50.0]), (SEAT | {"radial_load_N": 20.0}, [0.0, 50.0]), (palmgren, [0.0, 50.0])):
             assert code not in self.codes(tmp_path, bearing, torque)
 
+    @pytest.mark.parametrize(
+        ("keys", "told"),
+        [
+            ({"series": "tapered_roller"}, True),
+            ({"series": "angular_contact"}, True),
+            ({"series": "tapered_roller", "axial_load_N": 300.0}, False),
+            ({"series": "deep_groove"}, False),
+            ({"series": "four_point_contact"}, False),
+        ],
+    )
+    def test_thrust_induced_by_a_contact_angle_is_said(self, tmp_path: Path, keys: dict[str, Any], told: bool) -> None:
+        palmgren = {name: SEAT[name] for name in ("shaft", "bore_mm", "outside_diameter_mm")} | {"law": "palmgren"}
+        assert ("induced_thrust_left_out" in self.codes(tmp_path, palmgren | keys, [50.0])) == told
+
 
 def test_thrust_of_a_fast_helical_stage_is_lost_in_its_fixed_bearing(tmp_path: Path) -> None:
     """28 degrees, 300 N m, 16,000 rpm: the bearings lose much more than radial forces alone would make them lose."""

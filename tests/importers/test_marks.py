@@ -108,6 +108,11 @@ def test_another_answer_than_a_mark_is_refused(tmp_path):
         import_files([path], tmp_path / "rig", kind="friction_map", **{"import.decimal": "comma"})
 
 
+def test_a_cell_of_the_other_mark_than_the_answer_is_refused():
+    with pytest.raises(InputError, match=r"line 2: '1,500\.0': .*',' as decimal mark"):
+        read_sheet("a\tb\n1,500.0\t1,5\n1,600.0\t2,5\n", "t.txt", ",")
+
+
 def test_thousands_that_other_numbers_prove_are_reported(file, tmp_path):
     """'1,000' beside '0.10' is read as 1000, and the note says so."""
     text = "time (s)\tfriction_coefficient\n1\t0.10\n1,000\t0.11\n2,000\t0.12\n"

@@ -143,6 +143,13 @@ def test_a_point_in_a_text_beside_decimal_commas_parts_thousands(book, tmp_path,
     assert taken == [*ALL[:5], speed]
 
 
+@pytest.mark.parametrize("cell", ["1,500.0", "1,500,000", "-12,345.6"])
+def test_commas_as_decimal_mark_and_between_thousands_are_refused_with_both_cells(book, tmp_path, cell):
+    texts = [[str(100 * i), f"0,{i}5"] for i in range(1, 6)]
+    with pytest.raises(InputError, match=rf"cell B2: '0,15': .*cell A7.*{re.escape(repr(cell))}"):
+        speeds(book(Data=[HEAD, *texts, [cell, "0,9"]]), tmp_path)
+
+
 def test_a_column_of_decimal_points_keeps_them_beside_decimal_commas(book, tmp_path):
     texts = [[f"{i}.25", f"0,{i}5"] for i in range(1, 6)]
     taken, _ = speeds(book(Data=[HEAD, *texts, ["6.125", "0,9"]]), tmp_path)

@@ -47,6 +47,18 @@ def test_decimal_comma_in_one_column(tmp_path):
     assert profile.heights == pytest.approx(HEIGHTS * 1e-6, abs=1e-12)
 
 
+@pytest.mark.parametrize("delimiter", ["\t", " ", ";"])
+@pytest.mark.parametrize(("first", "second"), [("0.5", "1,500"), ("0,5", "1,500.0"), ("0,5", "2.5")])
+def test_a_comma_and_a_point_as_decimal_marks_are_refused_with_both_cells(tmp_path, delimiter, first, second):
+    text = (
+        rows(np.arange(20), np.arange(20), delimiter, form="{:.0f}") + f"20{delimiter}{first}\n21{delimiter}{second}\n"
+    )
+    with pytest.raises(InputError) as error:
+        read(written(tmp_path, text), unit="um")
+    assert first in str(error.value)
+    assert second in str(error.value)
+
+
 @pytest.mark.parametrize(
     ("header", "x", "z"),
     [

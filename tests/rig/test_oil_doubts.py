@@ -19,6 +19,7 @@ from mixedlub.schema.findings import Severity, collected, registered
 from mixedlub.schema.oil_file import oil_names, shipped_oil
 from mixedlub.schema.toml_file import to_toml
 from mixedlub.study import read_study, run_study
+from mixedlub.study.factor_file import Factors
 from mixedlub.study.record import resolved
 from profiles.errors import InputError
 
@@ -73,6 +74,13 @@ def test_viscosity_under_pressure_of_a_shipped_oil_falls_with_temperature(name: 
     assert ("coefficient_carried" in codes) == isinstance(
         shipped_oil(name).properties["pressure_viscosity_per_GPa"].value, float
     )
+
+
+def test_oils_of_the_example_of_factors_are_shipped_and_not_doubted() -> None:
+    (names,) = Factors.model_fields["oil"].examples or []
+    assert set(names) <= set(oil_names())
+    for name in names:
+        assert not [code for code in built(oil=name)[1] if registered()[code].severity is Severity.DOUBT]
 
 
 @pytest.mark.literature("Roelands' law with the constants of an automatic transmission fluid, computed independently")

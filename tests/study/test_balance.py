@@ -97,8 +97,8 @@ def test_a_film_law_that_is_no_power_of_its_groups_is_refused():
         sharing_exponent(lambda radius, line_load: radius * (1.0 + 1e5 / line_load))
     with pytest.raises(InputError, match="balance: needs a film law in powers"):
         sharing_exponent(moes)
-    with pytest.raises(InputError, match="of the line contact's groups alone"):
-        sharing_exponent(lambda load: load)
+    with pytest.raises(InputError, match="of the contact's groups alone"):
+        sharing_exponent(lambda mesh_speed: mesh_speed)
 
 
 # Limits

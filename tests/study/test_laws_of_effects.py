@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from mixedlub.effects import known_in
+from mixedlub.base_model.chains import LINE, POINT
+from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.effects import known_effects, known_in
 from mixedlub.laws import drag
 from mixedlub.schema.findings import codes
 from mixedlub.study import read_study, run_study
@@ -162,3 +164,29 @@ def test_every_physical_effect_on_gears_without_an_order_of_readings_runs(write_
 def test_load_that_moves_along_the_path_is_refused_by_averages_that_do_not_see_it(write_study):
     with pytest.raises(InputError, match=r'effects\.tip_relief.*averaging = "mesh_integral"'):
         read_study(write_study(effects={"tip_relief": {"relief": 1e-5}}, options={"averaging": "paper"}))
+
+
+@pytest.mark.parametrize(
+    ("law", "exponent"),
+    [(None, 0.69 - 0.56), ("Dowson and Higginson", 0.70 - 0.54), ("Pan and Hamrock", 0.692 - 0.470)],
+)
+def test_a_balance_of_load_takes_the_exponent_of_the_film_law_in_use(write_study, law, exponent):
+    """Exponents of U and G as the laws print them."""
+    film = {} if law is None else {"film_law": {"law": law}}
+    known = read_study(write_study(effects={"load_balance": {}, **film})).plan.parameters
+    assert known["load_balance"]["exponent"] == pytest.approx(exponent, abs=1e-9)
+    stated = read_study(write_study(effects={"load_balance": {"exponent": 0.2}, **film})).plan.parameters
+    assert stated["load_balance"]["exponent"] == 0.2
+
+
+@pytest.mark.parametrize("law", ["Moes", "Grubin"])
+def test_a_balance_of_load_is_refused_under_a_film_law_without_an_exponent(write_study, law):
+    with pytest.raises(InputError, match=r"effects\.load_balance\.exponent: .*effects\.film_law"):
+        read_study(write_study(effects={"load_balance": {}, "film_law": {"law": law}}))
+    read_study(write_study(effects={"load_balance": {"exponent": 0.1}, "film_law": {"law": law}}))
+
+
+@pytest.mark.parametrize(("chain", "exponent"), [(LINE, 0.69 - 0.56), (POINT, 0.67 - 0.53)])
+def test_a_balance_of_load_takes_the_exponent_of_line_or_point_contacts(chain, exponent):
+    known = known_effects({"load_balance": {}}, "disc", chain, tuple(GLOSSARY), "friction")
+    assert known.values["load_balance"] == {"stiffness": 1.0, "exponent": pytest.approx(exponent, abs=1e-9)}

@@ -116,6 +116,21 @@ def area_file(tmp_path) -> Path:
     return tmp_path / "ground.x3p"
 
 
+@pytest.mark.parametrize(("short", "applied"), [(8.0, 8.0), (0.5, None)])
+def test_the_record_of_a_map_says_its_cutoffs(area_file, write_study, short, applied):
+    """The short one is null where the spacing of 0.5 um does not show it."""
+    study = read_study(write_study(surfaces={"a": {"map": area_file.name, "short_cutoff_um": short}}))
+    recorded = json.loads(json.dumps(resolved(study)))["traces"]["a"]
+    assert {"short_cutoff_um", "cutoff_mm"} <= recorded.keys()
+    assert (recorded["short_cutoff_um"], recorded["cutoff_mm"]) == (applied, None)
+
+
+def test_the_record_of_traces_says_their_cutoffs(traces, write_study):
+    study = read_study(write_study(surfaces={"a": {"traces": traces[0], "cutoff_mm": 0.25, "short_cutoff_um": 2.5}}))
+    recorded = json.loads(json.dumps(resolved(study)))["traces"]["a"]
+    assert (recorded["short_cutoff_um"], recorded["cutoff_mm"]) == pytest.approx((2.5, 0.25))
+
+
 def test_a_map_gives_the_moments_across_and_along_its_lay(area_file, write_study):
     from profiles.image import read_map
 

@@ -8,6 +8,7 @@ from mixedlub.chain.slots import FILM, SLOTS
 from mixedlub.study import read_study, run_study
 from mixedlub.study.options import study_chain
 from mixedlub.study.schema import Options
+from profiles.errors import InputError
 
 
 def results(write_study, **options):
@@ -77,6 +78,13 @@ def test_bulk_temperature_rise_is_hotter_oil(write_study):
     warmer = results(write_study, bulk_temperature_rise_K=30.0)
     base = results(write_study)
     assert warmer["power_loss"][:, 0] == pytest.approx(base["power_loss"][:, 1], rel=1e-12)
+
+
+def test_an_option_and_an_effect_never_warm_the_teeth_twice(write_study):
+    options, effects = {"bulk_temperature_rise_K": 30.0}, {"bulk_temperature": {}}
+    with pytest.raises(InputError, match=r"effects\.bulk_temperature: and options\.bulk_temperature_rise_K "):
+        read_study(write_study(options=options, effects=effects))
+    read_study(write_study(options={"bulk_temperature_rise_K": 0.0}, effects=effects))
 
 
 def test_the_default_laws_are_those_of_the_base_model():

@@ -12,8 +12,12 @@ from mixedlub.case.folder import read_case
 from mixedlub.case.forward import Forward
 from mixedlub.case.validity import judge_rows
 from mixedlub.chain.ranges import GRADES, Limit, findings, flags
+from mixedlub.importers import write_case
 from mixedlub.schema.findings import Severity, codes
+from mixedlub.study import read_study, run_study
+from mixedlub.study.validity import flags_of
 from tests.efficiency.gearboxes import STAGE, gearbox
+from tests.study.conftest import StudyWriter
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "case"
 ROWS = {
@@ -98,3 +102,24 @@ def test_an_oil_far_from_its_two_viscosities_is_told() -> None:
     forward = Forward(case, rows)
     grades = flags(judge_rows(forward).reached, (4,))["viscosity_extrapolated"]
     assert grades.tolist() == [0, 0, 1, 2]
+
+
+THIN_OIL = {"temperature_C": [40.0, 100.0], "kinematic_viscosity_mm2_s": [2.0, 0.8]}
+"""An oil of 0.223 mm2/s at 280 °C and 0.2096 mm2/s at 300 °C, by the formula of ASTM D341 continued."""
+
+
+@pytest.mark.literature("ASTM D341: from 0.21 mm2/s")
+def test_a_study_with_an_oil_below_the_range_of_d341_is_not_quantitative(write_study: StudyWriter) -> None:
+    oil = {f"lubricant__{name}": value for name, value in THIN_OIL.items()}
+    hot = {"conditions__oil_temperature_C": [60.0, 280.0, 300.0]}
+    found = run_study(read_study(write_study(**oil, **hot)))
+    assert flags_of(found.study.plan, found.values)["viscosity_below_d341"][0, :, 0, 0].tolist() == [0, 0, 2]
+
+
+def test_a_recording_of_an_oil_below_the_range_of_d341_is_not_quantitative(tmp_path: Path) -> None:
+    system = {"kind": "viscosity", "lubricant": THIN_OIL, "recording": {"quantity": "viscosity_mPa_s"}}
+    rows = {"temperature_C": np.array([60.0, 280.0, 300.0]), "viscosity_mPa_s": np.array([1.2, 0.15, 0.14])}
+    case = read_case(write_case(tmp_path / "oil", system, rows))
+    assert case.recordings is not None
+    grades = flags(judge_rows(Forward(case, case.recordings)).reached, (3,))["viscosity_below_d341"]
+    assert grades.tolist() == [0, 0, 2]

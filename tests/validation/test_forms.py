@@ -29,7 +29,6 @@ EXACT, APART = 1e-6, 1e-3
 NEARLY = {
     ("churning", "churning"): 5e-3,
     ("churning", "churning_of_standard"): 5e-3,
-    ("bearing_drag", "bearing_drag_of_palmgren"): 1e-3,
     ("limiting_shear_stress", "limiting_stress_cut"): 1e-3,
     ("boundary_speed_dependence", "boundary_speed_dependence"): 1e-3,
     ("pressure_viscosity_law", "bode"): 2e-3,
@@ -37,7 +36,7 @@ NEARLY = {
 }
 """Forms counted as the catalogue's although it has something beside them that hardly shows.
 
-That is the density of the oil, a rounded corner at 1 mm/s, at 2000 mm2/s rpm or at the limit of stress, exponentials
+That is the density of the oil, a rounded corner at 1 mm/s or at the limit of stress, exponentials
 where a fraction bends alike, and drag at creeping speeds.
 """
 STARTS, FEW, MANY = 60, (8, 100), (40, 300)
