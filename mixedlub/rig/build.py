@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mixedlub.laws.oil import ZERO_CELSIUS, gold_pressure_viscosity
-from mixedlub.rig.lubricant import GOLD, LINEAR, ROELANDS, Lubricant
+from mixedlub.rig.lubricant import ROELANDS, Lubricant
 from mixedlub.rig.measured import Measured, Traces
 from mixedlub.rig.oil_doubts import doubts
 from mixedlub.rig.surface import Surface
@@ -68,10 +68,6 @@ def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (
     known = {k: v for k, v in section.model_dump().items() if v is not None and k not in ("name", "base", "oil")}
     base = typical(section)
     assumed = [key for key in base if key not in known and key != "source" and key not in unread]
-    if assumed:
-        stock = section.base or f"{DEFAULT_BASE} (assumed)"
-        listed = ", ".join(f"{key} = {base[key]}" for key in assumed)
-        report(finding("oil_typical", f"{listed} not given; taken as typical of base {stock}", "lubricant"))
     full = {**base, **known}
     t1, t2 = full["temperature_C"]
     nu1, nu2 = full["kinematic_viscosity_mm2_s"]
@@ -97,10 +93,16 @@ def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (
         heat_capacity=full["specific_heat_J_kgK"],
         pressure_modulus=None if modulus is None else (modulus[0] * 1e6, modulus[1] * 1e6),
         modulus_slope=full.get("pressure_modulus_slope"),
-        carried=GOLD if "pressure_viscosity_per_GPa" not in known and a1 > 0.0 else LINEAR,
     )
     if section.known_pressure_viscosity is not None:
         oil = _carried(oil, section.known_pressure_viscosity, section.base or DEFAULT_BASE, unread)
+    elif "pressure_viscosity_per_GPa" not in known:
+        oil = oil.carrying(oil.pressure_viscosity[0], oil.temperature[0], ROELANDS, 0.0)
+        base["pressure_viscosity_per_GPa"] = [round(1e9 * alpha, 1) for alpha in oil.pressure_viscosity]
+    if assumed:
+        stock = section.base or f"{DEFAULT_BASE} (assumed)"
+        listed = ", ".join(f"{key} = {base[key]}" for key in assumed)
+        report(finding("oil_typical", f"{listed} not given; taken as typical of base {stock}", "lubricant"))
     for one in doubts(oil, unread):
         report(one)
     return oil

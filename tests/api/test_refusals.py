@@ -40,7 +40,8 @@ def path(**keys):
 
 
 def test_a_condition_without_a_pressure_viscosity_is_named() -> None:
-    refused(loss(oil_temperature_C=[60, 300]), "lubricant.pressure_viscosity_per_GPa", "below zero at 300 °C")
+    oil = ml.oil("mineral", pressure_viscosity_per_GPa=[18.8, 13.9])
+    refused(loss(oil=oil, oil_temperature_C=[60, 300]), "lubricant.pressure_viscosity_per_GPa", "below zero at 300 °C")
 
 
 def test_one_viscosity_of_two_is_asked_for_at_both_temperatures() -> None:

@@ -149,7 +149,7 @@ def test_a_ball_of_given_bodies_assumes_nothing_of_them(tmp_path, capsys):
     columns = {"load_N": [20.0, 20.0], "entrainment_speed_m_s": [0.1, 1.0], "slide_roll_ratio": [0.0, 0.0]}
     columns |= {"oil_temperature_C": [40.0, 40.0], "film_thickness_nm": [50.0, 230.0]}
     said = understood(tmp_path, capsys, system, columns).partition("Assumed:")[2]
-    assert "pressure_viscosity_per_GPa = [15.9, 12.8]" in said
+    assert "pressure_viscosity_per_GPa = [15.9, 11.6]" in said
     assert not any(key in said for key in ("boundary_friction", "youngs_modulus", "surfaces", "ambient"))
 
 
