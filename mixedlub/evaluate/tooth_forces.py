@@ -208,7 +208,7 @@ def recentred(forces: Forces, meshing: Meshing, asymmetry: float, name: str) -> 
     offsets = []
     for tooth in np.unique(forces.tooth):
         rows = forces.tooth == tooth
-        window = rows & forces.single
+        window = rows & forces.single & ~meshing.is_smeared(forces.roll_angle)
         weights = centring_weights(forces.roll_angle[window], meshing.pitch_point)
         if weights is None:
             raise InputError(
@@ -226,7 +226,8 @@ def recentred(forces: Forces, meshing: Meshing, asymmetry: float, name: str) -> 
 def centring_weights(angle: np.ndarray, centre: float) -> np.ndarray | None:
     """Weights of values at ascending angles: the weighted sum is the mean over the widest interval around ``centre``.
 
-    Linear interpolation between the angles. None unless the angles surround the centre.
+    Linear interpolation between the angles, but not across the centre, where friction may step. None unless the angles
+    surround the centre.
 
     >>> centring_weights(np.array([-1.0, 0.5, 1.0]), 0.0).round(3) @ np.array([-1.0, 0.5, 1.0])   # an odd function
     np.float64(0.0)
@@ -234,7 +235,9 @@ def centring_weights(angle: np.ndarray, centre: float) -> np.ndarray | None:
     reach = 0.0 if angle.size < 2 else min(centre - float(angle[0]), float(angle[-1]) - centre)
     if reach <= 0.0:
         return None
-    places = centre + reach * np.linspace(-1.0, 1.0, 201)
+    before, after = angle[angle <= centre], angle[angle >= centre]
+    distance = np.linspace(max(centre - float(before[-1]), float(after[0]) - centre), reach, 101)
+    places = np.concatenate([centre - distance, centre + distance])
     return np.array([np.interp(places, angle, one).mean() for one in np.eye(angle.size)])
 
 

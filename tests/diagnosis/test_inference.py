@@ -69,7 +69,7 @@ def test_evidence_of_a_linear_model_is_the_closed_form() -> None:
 def test_fast_evidence_agrees_with_importance_sampling(explanation: Explanation) -> None:
     p = problem(extra=0.05)
     fit = map_fit(p, explanation, np.zeros(p.size(explanation)))
-    slow = importance_evidence(p, fit, draws=3000)
+    slow = importance_evidence(p, fit, draws=6000)
     assert slow.effective_share > 0.005
     assert fit.evidence == pytest.approx(slow.value, abs=0.3 + 3.0 * slow.error)
 
