@@ -194,11 +194,12 @@ def overruled(raw: Profile) -> Iterator[str]:
 
 
 def _clipped(raw: Profile) -> Iterator[str]:
-    """Heights beyond the range of the instrument."""
+    """Heights beyond the range of the instrument, and stretches without signal."""
     if found := clipping(raw):
+        again = "in a wider range" if found.low or found.high else "or leave the stretch out: the signal was lost there"
         yield (
             f"{found}, unless the part has such flats: Rz, Rsk, Rku, the summits and whether the heights are Gaussian "
-            "are doubtful; measure again in a wider range"
+            f"are doubtful; measure again {again}"
         )
 
 

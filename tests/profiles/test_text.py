@@ -280,15 +280,6 @@ def test_two_plausible_pairs_are_both_named_and_refused(tmp_path, x, z, pairs):
 
 
 @pytest.mark.parametrize(
-    ("heading", "strange"),
-    [("x_mm,z_mm", "a typical slope of "), ("x_um,z_um", "a step of 0.0005 um"), ("x_mm,z_um", None)],
-)
-def test_a_heading_that_makes_no_trace_is_told(tmp_path, heading, strange):
-    told = read(written(tmp_path, f"{heading}\n{table_of(ALONG * 1e-3, SURFACE)}")).origin.get("units_doubtful", "")
-    assert (strange in told and "by the heading" in told) if strange else told == ""
-
-
-@pytest.mark.parametrize(
     "text", ["x_um,z_um\n" + rows(POSITIONS, HEIGHTS, ","), "spacing: 0.5 um\nunit: um\n" + "0.1\n0.2\n0.1\n0.3\n"]
 )
 def test_a_step_that_overrules_the_file_is_told(tmp_path, text):
