@@ -64,7 +64,7 @@ def read_table(
     if columns.shape[0] > 2:
         rule = (
             f"one or two columns are needed, [position,] height, not {columns.shape[0]}: save each column of heights "
-            "with its positions as a file of its own"
+            "with its positions as a file of its own; a height map is read from x3p and SDF files, not from text"
         )
         raise InputError(rule, where=source.where)
     if columns.shape[1] < 3:

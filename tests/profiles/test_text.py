@@ -122,7 +122,7 @@ def test_rounded_positions_keep_the_measured_step(tmp_path):
         ("1 2\n3 2\n2 3\n4 5\n5 6\n", "point 3: 2.0: positions must increase"),
         ("1 2\n2 2\n3 3\n4 5\n4 6\n9 7\n", "positions must be equally spaced"),
         ("1 2\n2 3\n", "at least three heights"),
-        ("1 2 3\n2 3 4\n3 4 5\n", "one or two columns.*not 3: save each column of heights"),
+        ("1 2 3\n2 3 4\n3 4 5\n", "one or two columns.*not 3: save each column of heights.*x3p and SDF"),
         ("1e400 2\n2 3\n3 4\n", "positions must be finite"),
     ],
 )
