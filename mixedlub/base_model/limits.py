@@ -85,6 +85,7 @@ _OF_CONTACTS = (
         "and the viscosity of the oil",
         _SHARE,
         _SHARE,
+        meaning="film thickness over contact width",
     ),
     Limit(
         "balance_not_found",
@@ -93,6 +94,7 @@ _OF_CONTACTS = (
         "no film was found at which film and asperities together carry the load",
         _NONE,
         _NONE,
+        meaning="error of the load that film and asperities carry, over the load",
     ),
     Limit(
         "asperities_overloaded",
@@ -100,6 +102,7 @@ _OF_CONTACTS = (
         (0.0, 1.0 + EXACT),
         "asperities would carry more than the load at the gap of the film law: the real area is too large for the "
         "load, and friction may be too large or much too small",
+        meaning="load of the asperities over the whole load",
     ),
     Limit(
         "film_carries_too_little",
@@ -115,6 +118,7 @@ _OF_CONTACTS = (
         (0.0, 1.0 - EXACT),
         "the boundary area ratio was limited to 1",
         (0.0, 1.0 - EXACT),
+        meaning="real over nominal contact area",
     ),
     Limit(
         "bandwidth_limited",
@@ -122,6 +126,7 @@ _OF_CONTACTS = (
         (BROAD, np.inf),
         "no isotropic Gaussian surface has such a Nayak bandwidth; 1.5 was used",
         (1.0, np.inf),
+        meaning="Nayak's bandwidth m0 m4/m2^2",
     ),
 )
 

@@ -123,7 +123,7 @@ flash_per_friction      | theta_mu   | K       | rise of the surfaces by sliding
 flash_temperature       | theta_fl   | K       | largest rise of the surfaces above their bulk in the contact by sliding
 film_rise               | theta_f    | K       | rise of the middle of the film above its walls by shear
 specific_film           | lambda_GF  | -       | local film thickness over mean roughness by which micropitting is rated
-contact_viscosity       | eta_p      | Pa s    | viscosity of the film in the contact, of a sample under pressure
+contact_viscosity       | eta_p      | Pa s    | viscosity of the film in the contact; of a sample under pressure
 shear_stress            | tau        | Pa      | shear stress of the film
 fluid_friction          | mu_E       | -       | friction coefficient of the film
 boundary_friction       | mu_B       | -       | friction coefficient of touching asperities
