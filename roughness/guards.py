@@ -250,5 +250,7 @@ def shape_warnings(gaussian: NormalProbability | None) -> Iterator[str]:
     if gaussian.misleads:
         ratio = gaussian.contact_ratio[1]
         yield f"called Gaussian, yet real contact at a gap of 2 sigma is {ratio:.2f} times the Gaussian one"
-    if gaussian.verdict in ("plateau", "not_gaussian"):
-        yield f"heights are {gaussian.words}" if gaussian.verdict == "not_gaussian" else gaussian.words
+    if gaussian.verdict == "plateau":
+        yield gaussian.words
+    if gaussian.verdict == "not_gaussian":
+        yield f"heights are {gaussian.words.removeprefix('heights ')}"

@@ -101,8 +101,8 @@ class Limit:
         shown = values[~np.isnan(values)] * factor - zero
         ends = f"{_number(low)} to {_number(high)}" if high < ENDLESS else f"of at least {_number(low)}"
         down = [f"down to {_number(shown.min())}"] if shown.min() < low else []
-        most = "over 1000" if not unit and shown.max() > FAR * max(high, 1.0) else _number(shown.max())
-        up = [f"up to {most}"] if shown.max() > high else []
+        most = "over 1000" if not unit and shown.max() > FAR * max(high, 1.0) else f"up to {_number(shown.max())}"
+        up = [most] if shown.max() > high else []
         meaning = GLOSSARY[self.quantity].meaning.partition(";")[0] if known else self.quantity.replace("_", " ")
         meaning = self.meaning or meaning
         return f"{meaning} {ends} {unit}".rstrip() + f", here {' and '.join(down + up)} {unit}".rstrip()

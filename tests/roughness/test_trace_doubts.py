@@ -54,7 +54,9 @@ def test_a_constant_stretch_is_told_by_command_and_study(tmp_path, evaluated, ca
     rows = "".join(f"{x * 1e6:.2f},{z * 1e6:.5f}\n" for x, z in zip(trace.positions, heights))
     (tmp_path / "held.csv").write_text("x_um,z_um\n" + rows)
     row = evaluated(tmp_path / "held.csv", "--cutoff-mm", "0.8")
-    assert "heights constant from 3 to 3.3 mm" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "heights constant from 3 to 3.3 mm" in said
+    assert "heights are heights" not in said
     assert row["gaussian"]["verdict"] == "not_gaussian"
     with collected() as found:
         rig_of(tmp_path, held={"profile": "held.csv", "cutoff_mm": 0.8, "short_cutoff_um": 2.5}).surface("held")

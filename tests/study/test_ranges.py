@@ -165,5 +165,5 @@ def test_a_far_number_and_the_quantity_behind_it_are_in_plain_words() -> None:
         Limit("a", "share_lacking", (0.0, 1.0), "", meaning="one over another"),
         Limit("b", "hertz_pressure", (0.0, 4e9), ""),
     )
-    assert film.reach(np.array([2.9e6])) == "one over another 0 to 1, here up to over 1000"
+    assert film.reach(np.array([2.9e6])) == "one over another 0 to 1, here over 1000"
     assert pressure.reach(np.array([17.4e9])).endswith("dry contact 0 to 4000 MPa, here up to 17400 MPa")
