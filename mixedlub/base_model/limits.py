@@ -35,6 +35,8 @@ BALANCE = (
     "follows the load that asperities carry"
 )
 """Advice on overloaded asperities in studies that can share the load."""
+YIELDING = "; asperities that yield are an option (asperities, with hardness_GPa)"
+"""Advice on elastic asperities in studies."""
 
 
 def contact_limits(inputs: Mapping[str, Any], effects: Collection[str] = ()) -> tuple[Limit, ...]:
@@ -64,8 +66,7 @@ _ELASTIC = Limit(
     "asperities_above_hardness",
     "asperity_real_pressure",
     (0.0, HARDNESS),
-    "the real contact is pressed harder than hardened steel can bear, outside the range of elastic asperities; those "
-    "that yield are an option of a study (asperities, with hardness_GPa) and the effect asperity_plasticity",
+    "asperities press harder than hardened steel can bear, so that they yield",
 )
 _SHARE, _NONE = (0.0, 1.0), (0.0, EXACT)
 _D341 = (1e-6 * D341_LEAST, np.inf)
@@ -102,7 +103,7 @@ _OF_CONTACTS = (
         (0.0, 1.0 + EXACT),
         "asperities would carry more than the load at the gap of the film law: the real area is too large for the "
         "load, and friction may be too large or much too small",
-        meaning="load of the asperities over the whole load",
+        meaning="their load over the whole load",
     ),
     Limit(
         "film_carries_too_little",

@@ -113,7 +113,7 @@ film_thickness          | h          | m       | central film thickness
 separation              | t          | -       | gap to the summits' mean plane over summit sigma
 area_ratio              | P_B        | -       | real over nominal contact area, the share of boundary friction
 asperity_pressure       | p_a        | Pa      | mean pressure that asperities carry at this gap
-asperity_real_pressure  | p_r        | Pa      | mean pressure on the real contact area of the asperities
+asperity_real_pressure  | p_r        | Pa      | mean pressure on the real contact area
 asperity_load_share     | L          | -       | share of the load that asperities carry, at most 1
 full_load_film          | h_0        | m       | film thickness if the film carried the whole load
 sharing_exponent        | k          | -       | power of whole over film load in the growth of a film that carries less

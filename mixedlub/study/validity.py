@@ -7,7 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
-from mixedlub.base_model.limits import BALANCE, contact_limits, of_bearing_asperities
+from mixedlub.base_model.limits import BALANCE, YIELDING, contact_limits, of_bearing_asperities
 from mixedlub.chain.ranges import EXTRAPOLATED, Reached, findings, flags
 from mixedlub.chain.slots import SLOTS
 from mixedlub.laws.oil import kinematic
@@ -61,7 +61,8 @@ def flags_of(plan: Plan, values: Mapping[str, np.ndarray], notes: Iterable[Findi
 def out_of_range(results: Results) -> tuple[Finding, ...]:
     """Findings on conditions outside the valid range of the laws, worst first."""
     plan, count = results.study.plan, len(results.study.pairings)
-    more = {"asperities_overloaded": BALANCE} if plan.friction is None and not plan.balanced else {}
+    more = {"asperities_above_hardness": YIELDING} if plan.friction is None else {}
+    more |= {"asperities_overloaded": BALANCE} if plan.friction is None and not plan.balanced else {}
     rows = f"conditions of {count} pairings" if count > 1 else "conditions"
     return findings(reached(plan, results.values), plan.shape, rows, lambda code: _place(results.study, code), more)
 
