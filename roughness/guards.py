@@ -194,11 +194,12 @@ def overruled(raw: Profile) -> Iterator[str]:
 
 
 def _clipped(raw: Profile) -> Iterator[str]:
-    """Heights beyond the range of the instrument."""
+    """Heights beyond the range of the instrument, and stretches without signal."""
     if found := clipping(raw):
+        again = "in a wider range" if found.low or found.high else "or leave the stretch out: the signal was lost there"
         yield (
             f"{found}, unless the part has such flats: Rz, Rsk, Rku, the summits and whether the heights are Gaussian "
-            "are doubtful; measure again in a wider range"
+            f"are doubtful; measure again {again}"
         )
 
 
@@ -249,5 +250,7 @@ def shape_warnings(gaussian: NormalProbability | None) -> Iterator[str]:
     if gaussian.misleads:
         ratio = gaussian.contact_ratio[1]
         yield f"called Gaussian, yet real contact at a gap of 2 sigma is {ratio:.2f} times the Gaussian one"
-    if gaussian.verdict in ("plateau", "not_gaussian"):
-        yield f"heights are {gaussian.words}" if gaussian.verdict == "not_gaussian" else gaussian.words
+    if gaussian.verdict == "plateau":
+        yield gaussian.words
+    if gaussian.verdict == "not_gaussian":
+        yield f"heights are {gaussian.words.removeprefix('heights ')}"

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import form_tables
 import markdown_tables as md
+import one_law
 import scores
 import thresholds
 from sphinx.application import Sphinx
@@ -93,6 +94,7 @@ def pieces() -> dict[str, str]:
         "ranges": _ranges(),
         "thresholds": thresholds.tables(),
         "forms": form_tables.tables(),
+        "one_law": one_law.pairs(),
     }
 
 
@@ -370,10 +372,8 @@ def _ranges() -> str:
     rows = []
 
     def walk(place: str, table: dict[str, Any]) -> None:
-        for key, value in table.items():
+        for key, value in ((k, v) for k, v in table.items() if isinstance(v, dict)):
             name = f"{place}.{key}".lstrip(".")
-            if not isinstance(value, dict):
-                continue
             limits = [v for v in value.values() if isinstance(v, list) and len(v) == 2]
             if limits:
                 rows.append((name, *(f"{low:g} to {high:g}" for low, high in limits)))

@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.base_model.limits import contact_limits, law_limits
+from mixedlub.base_model.limits import contact_limits, law_limits, of_bearing_asperities
 from mixedlub.case.forward import Forward
 from mixedlub.chain.model import Chain, Parameters
 from mixedlub.chain.ranges import Reached, farthest_beyond, findings, flags, validity
 from mixedlub.effects import known_in
-from mixedlub.laws.contact import asperity_load_ratio
+from mixedlub.laws.contact import asperity_load_ratio, asperity_real_pressure
 from mixedlub.laws.film import film_over_contact_width
 from mixedlub.laws.load import carries_load
 from mixedlub.laws.oil import kinematic
@@ -24,9 +24,10 @@ CHECKS: Chain = (
     ("kinematic_viscosity", kinematic),
     ("film_over_contact_width", film_over_contact_width),
     ("asperity_load_ratio", asperity_load_ratio),
+    ("asperity_real_pressure", asperity_real_pressure),
 )
 """Judged quantities without influence on any reading."""
-OF_BASE_MODEL = ("asperities_overloaded",)
+OF_BASE_MODEL = ("asperities_overloaded", "asperities_above_hardness")
 """Codes that are notes here: the base model of a recording has no balance of load, so most rough surfaces have them."""
 
 
@@ -62,11 +63,14 @@ def judge_rows(
     made = {*inputs, *(name for name, _ in forward.chain)}
     checks = tuple((name, law) for name, law in CHECKS if made.issuperset(signature(law).parameters))
     made |= {name for name, _ in checks}
-    limits = (*contact_limits(inputs), *law_limits(steps, (*forward.known.effects, *added), values))
+    effects = (*forward.known.effects, *added)
+    limits = (*contact_limits(inputs, [one.id for one in effects]), *law_limits(steps, effects, values))
     limits = tuple(limit for limit in limits if limit.quantity in made)
     wanted = {limit.quantity for limit in limits} | ({"line_load"} & made)
     with np.errstate(all="ignore"):
-        state = forward.model(tuple(wanted), added, checks)(inputs, values)
+        state = dict(forward.model(tuple(wanted), added, checks)(inputs, values))
+    if (real := "asperity_real_pressure") in wanted:
+        state[real] = of_bearing_asperities(state[real], state["asperity_load_ratio"])
     where = _judged(inputs, state)
     count = len(forward.table)
     reached = [(one, _of_rows(farthest_beyond(_points(state[one.quantity]), one.ends, where), count)) for one in limits]

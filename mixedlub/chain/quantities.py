@@ -113,6 +113,7 @@ film_thickness          | h          | m       | central film thickness
 separation              | t          | -       | gap to the summits' mean plane over summit sigma
 area_ratio              | P_B        | -       | real over nominal contact area, the share of boundary friction
 asperity_pressure       | p_a        | Pa      | mean pressure that asperities carry at this gap
+asperity_real_pressure  | p_r        | Pa      | mean pressure on the real contact area
 asperity_load_share     | L          | -       | share of the load that asperities carry, at most 1
 full_load_film          | h_0        | m       | film thickness if the film carried the whole load
 sharing_exponent        | k          | -       | power of whole over film load in the growth of a film that carries less
@@ -122,7 +123,7 @@ flash_per_friction      | theta_mu   | K       | rise of the surfaces by sliding
 flash_temperature       | theta_fl   | K       | largest rise of the surfaces above their bulk in the contact by sliding
 film_rise               | theta_f    | K       | rise of the middle of the film above its walls by shear
 specific_film           | lambda_GF  | -       | local film thickness over mean roughness by which micropitting is rated
-contact_viscosity       | eta_p      | Pa s    | viscosity of the film in the contact, of a sample under pressure
+contact_viscosity       | eta_p      | Pa s    | viscosity of the film in the contact; of a sample under pressure
 shear_stress            | tau        | Pa      | shear stress of the film
 fluid_friction          | mu_E       | -       | friction coefficient of the film
 boundary_friction       | mu_B       | -       | friction coefficient of touching asperities

@@ -28,6 +28,8 @@ EXTRAPOLATED = "law_extrapolated"
 """Code of a law or effect outside its range; flags append a colon and its name."""
 SLACK = 1e-9
 """Rounding error accepted beyond a range, relative to its end."""
+FAR = 1000.0
+"""Ratio to the end of a range of numbers without unit above which their digits say nothing."""
 UNBOUNDED = (-np.inf, np.inf)
 ENDLESS = 1e300
 """Ends of a range above this number are left out of its text."""
@@ -55,7 +57,7 @@ class Limit:
     """A range of a quantity, with the code and the advice of the finding on values outside it.
 
     ``little``: range of a small extrapolation, by default a factor `LITTLE` beyond the ends. ``possible``: range that
-    exists in contacts.
+    exists in contacts. ``meaning``: that of a quantity without entry in the glossary.
     """
 
     code: str
@@ -64,6 +66,7 @@ class Limit:
     advice: str
     little: Ends | None = None
     possible: Ends = UNBOUNDED
+    meaning: str = ""
 
     @property
     def key(self) -> str:
@@ -96,11 +99,22 @@ class Limit:
         unit, zero = (unit.removeprefix("-"), 0.0) if unit != "K" else ("°C", float(ZEROS["degC"]))
         low, high = (end * factor - zero for end in self.ends)
         shown = values[~np.isnan(values)] * factor - zero
-        ends = f"{low:.4g} to {high:.4g}" if high < ENDLESS else f"of at least {low:.4g}"
-        down = [f"down to {shown.min():.4g}"] if shown.min() < low else []
-        up = [f"up to {shown.max():.4g}"] if shown.max() > high else []
-        meaning = GLOSSARY[self.quantity].meaning if known else self.quantity.replace("_", " ")
+        ends = f"{_number(low)} to {_number(high)}" if high < ENDLESS else f"of at least {_number(low)}"
+        down = [f"down to {_number(shown.min())}"] if shown.min() < low else []
+        most = "over 1000" if not unit and shown.max() > FAR * max(high, 1.0) else f"up to {_number(shown.max())}"
+        up = [most] if shown.max() > high else []
+        meaning = GLOSSARY[self.quantity].meaning.partition(";")[0] if known else self.quantity.replace("_", " ")
+        meaning = self.meaning or meaning
         return f"{meaning} {ends} {unit}".rstrip() + f", here {' and '.join(down + up)} {unit}".rstrip()
+
+
+def _number(value: float) -> str:
+    """Number of four digits, without exponent from 10,000 to a million.
+
+    >>> _number(0.0001234), _number(17402.8), _number(2e9)
+    ('0.0001234', '17400', '2e+09')
+    """
+    return f"{float(f'{value:.4g}'):.0f}" if 1e4 <= abs(value) < 1e6 else f"{value:.4g}"
 
 
 def of_law(name: str, ranges: Mapping[str, Ends]) -> tuple[Limit, ...]:

@@ -176,6 +176,8 @@ def deliver(result: Result, to: Delivery, *, page: Page | None = None, written: 
         note(text)
     case = () if result.case is None else (CASE,)
     to.check([*to.names(result.tables), *result.files, *case], result.figures if how.figures else ())
+    if other := _other_style(result, to):
+        note(other)
     with to.publishing() as aside:
         _write_tables(result, how, aside)
         fill(result.files, aside)
@@ -188,6 +190,7 @@ def deliver(result: Result, to: Delivery, *, page: Page | None = None, written: 
     if WORKBOOK in others:  # its sheets are tables of an earlier run
         others.remove(WORKBOOK)
         (folder / WORKBOOK).unlink()
+        note(f"{folder / WORKBOOK} of an earlier run was removed; --xlsx writes it anew")
     if others:
         note(f"of an earlier run, in {folder}: {listed(others)}")
     for line in result.lines:
@@ -196,6 +199,19 @@ def deliver(result: Result, to: Delivery, *, page: Page | None = None, written: 
     echo(last + (drawings if how.figures and drawn else ""))
     if not drawn:
         raise typer.Exit(1)
+
+
+def _other_style(result: Result, to: Delivery) -> str:
+    """Note on the other style of the CSV files that are replaced; empty if there are none."""
+    own = STYLES[to.how.csv_style].separator
+    for path in (to.folder / f"{name}.csv" for name in result.tables):
+        if path.is_file():
+            with path.open(encoding="utf-8", errors="replace") as file:
+                marks = file.readline()
+            other = next((n for n, style in STYLES.items() if style.separator != own and style.separator in marks), "")
+            if other and own not in marks:
+                return f"{path} of an earlier run has the style {other} and is replaced; --csv-style {other} keeps it"
+    return ""
 
 
 def _write_tables(result: Result, how: How, aside: Path) -> None:

@@ -195,6 +195,7 @@ def study_text() -> str:
     given = {
         "schema": "mixedlub-study/1",
         "title": "Power loss of two surfaces",
+        "boundary_friction": 0.1,
         **{section: rig[section] for section in ("gears", "lubricant")},
         "surfaces": {
             first: rig["surfaces"][first],

@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mixedlub.chain.effect import entry
-from mixedlub.commands.console import note
+from mixedlub.commands.console import note, print_findings
 from mixedlub.commands.deliver import How, deliver, delivers
 from mixedlub.running.origin import origin_of_file
+from mixedlub.schema.findings import finding
 from mixedlub.schema.result import Drawing, Result
 from profiles.errors import InputError
 
@@ -106,6 +107,9 @@ def command(
                 trace = trace_of(file)
                 for text in overruled(trace):
                     note(f"{file}: {text}")
+                    told_already.add(f"{file}: {text}")
+                if text := str(trace.origin.get("units_doubtful", "")):
+                    print_findings([finding("value_unusual", text, str(file))])
                     told_already.add(f"{file}: {text}")
             with named_options(file, trace):
                 evaluated = trace_record(

@@ -25,7 +25,7 @@ LEAST_TORQUE = 1e-3
 MOST_POINTS = 2_000_000
 """Contact points with inputs held in memory at a time."""
 
-OF_ASPERITIES = ("asperities_overloaded", "area_ratio_limited", "bandwidth_limited")
+OF_ASPERITIES = ("asperities_overloaded", "asperities_above_hardness", "area_ratio_limited", "bandwidth_limited")
 """Flags of asperities, irrelevant to a friction law without asperities."""
 LOCAL = ("friction", "rolling_force")
 """Quantities that determine the loss of a contact point."""

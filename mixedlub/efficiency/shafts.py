@@ -23,6 +23,8 @@ BALANCED = 1e-9
 """Net thrust over the largest thrust of a shaft below which thrusts cancel apart from rounding."""
 INDUCING = ("angular_contact", "tapered_roller")
 """Types of single-row bearings with a contact angle; SKF's law of them is for such bearings without a named series."""
+FARTHEST = 10.0
+"""Judgement. Distance along a shaft over the centre distance of the gears, above which it is in another unit."""
 SIGNS = {"positive": 1.0, "negative": -1.0}
 
 
@@ -116,7 +118,8 @@ Loads = dict[tuple[str, str], Load]
 
 
 def bearing_loads(stages: Mapping[str, Stage], pairs: Mapping[str, GearPair]) -> tuple[Loads, list[Finding]]:
-    """Loads of all bearings by stage and name; findings on shafts without bearings and on induced thrust left out."""
+    """Loads of all bearings by stage and name; findings on shafts without bearings, on induced thrust left out, and on
+    distances unlike a gearbox."""
     loads: Loads = {}
     bare: list[str] = []
     for wheels in _shafts(stages, pairs):
@@ -129,7 +132,7 @@ def bearing_loads(stages: Mapping[str, Stage], pairs: Mapping[str, GearPair]) ->
             raise InputError("every bearing of a shared shaft needs position_mm", where=wheels[0].shaft)
         else:
             loads |= _by_shares(wheels[0])
-    notes = []
+    notes = list(_far(stages, pairs))
     if bare:
         text = f"no bearings on the shafts of {', '.join(bare)}: their losses are left out"
         notes.append(finding("shaft_without_bearings", text, "stages"))
@@ -143,6 +146,19 @@ def bearing_loads(stages: Mapping[str, Stage], pairs: Mapping[str, GearPair]) ->
         )
         notes.append(finding("induced_thrust_left_out", text, "stages"))
     return loads, notes
+
+
+def _far(stages: Mapping[str, Stage], pairs: Mapping[str, GearPair]) -> Iterator[Finding]:
+    """Findings on positions and distances along shafts that are far larger than the gears."""
+    for name, stage in stages.items():
+        centres = 1e3 * pairs[name].working_centre_distance
+        placed = {f"bearings.{key}.position_mm": one.position_mm for key, one in stage.bearings.items()}
+        if stage.shared_shaft is not None:
+            placed["shared_shaft.distance_mm"] = stage.shared_shaft.distance_mm
+        for place, value in placed.items():
+            if value is not None and abs(value) > FARTHEST * centres:
+                text = f"{value:g} mm, {abs(value) / centres:.0f} times the centre distance of {centres:.4g} mm: "
+                yield finding("value_unusual", f"{text}check the number and its unit", f"stages.{name}.{place}")
 
 
 def _induces(bearing: Bearing) -> bool:

@@ -19,6 +19,7 @@ from mixedlub.importers.column_units import (
 )
 from mixedlub.importers.kinematic import VISCOSITY
 from mixedlub.importers.likeness import (
+    SLIP,
     WEAR,
     either,
     is_empty,
@@ -36,7 +37,7 @@ from mixedlub.importers.likeness import (
 )
 from mixedlub.importers.one_value import without_value
 from mixedlub.importers.speed_from_position import FROM_POSITION, SPEED_FROM, positions
-from mixedlub.importers.surface_speeds import FROM_BOTH_SPEEDS, other_surface
+from mixedlub.importers.surface_speeds import FROM_BOTH_SPEEDS, TURNING, other_surface, turning
 from mixedlub.importers.text_table import Cells, is_numeric
 from mixedlub.importers.time_base import (
     PACE_KEYS,
@@ -165,6 +166,20 @@ def _explained(question: Question, kind: Kind) -> Question:
     meaning = f"{name}: {column.meaning}" + (f", in {unit}; other units are converted" if unit else "")
     has_value = question.key == COLUMNS + name and column in kind.columns and name != TIME
     return replace(question, meaning=meaning, one_value=VALUES + name if has_value else "")
+
+
+def with_whole_headers(answers: Answers, cells: Cells) -> dict[str, Any]:
+    """Answers in which a header named without its unit has it.
+
+    >>> with_whole_headers({"import.columns.friction_coefficient": "Reibungszahl"}, {"Reibungszahl [-]": ["0.1"]})
+    {'import.columns.friction_coefficient': 'Reibungszahl [-]'}
+    """
+    whole = dict(answers)
+    for key, header in answers.items():
+        if key.startswith(COLUMNS) and str(header) not in cells:
+            found = [h for h in cells if split(h)[0] == str(header).strip().lower()]
+            whole[key] = found[0] if len(found) == 1 else header
+    return whole
 
 
 def _named_header(column: str, cells: Cells, answers: Answers) -> str:
@@ -325,7 +340,9 @@ def _offered(cells: Cells, headers: Mapping[str, str]) -> Cells:
 
 
 def _two_speeds(column: str, cells: Cells) -> str:
-    """Reason against offering the speeds of two surfaces."""
+    """Reason against offering the speeds of two surfaces or bodies."""
+    if (column in FROM_BOTH_SPEEDS or column == SLIP) and (both := turning(cells)):
+        return f"; {', '.join(both)}: {TURNING}: add a column of it"
     single = [h for h in cells if other_surface(h, cells) is not None] if column in FROM_BOTH_SPEEDS else []
     made = FROM_BOTH_SPEEDS.get(column, "").removesuffix(" with that of").removesuffix(" to that of")
     return f"; {', '.join(single)}: speeds of single surfaces, {made}, add a column of it" if single else ""

@@ -16,11 +16,11 @@ from mixedlub.importers.dropped_columns import LEAVE
 from mixedlub.importers.input_file import InputFile
 from mixedlub.importers.kinematic import as_dynamic
 from mixedlub.importers.likeness import likely_headers, likely_kind, likeness_of_reading
-from mixedlub.importers.matching import Match, import_keys, match, wanted
+from mixedlub.importers.matching import Match, import_keys, match, wanted, with_whole_headers
 from mixedlub.importers.one_value import constants, value_keys
 from mixedlub.importers.recognised import logarithm_doubt, refuse_unrecognised
 from mixedlub.importers.speed_from_position import SPEED_FROM, with_speed
-from mixedlub.importers.surface_speeds import refuse_one_surface
+from mixedlub.importers.surface_speeds import halved_sum, refuse_one_surface
 from mixedlub.importers.text_table import (
     ONLY,
     Cells,
@@ -62,6 +62,7 @@ def draft(file: InputFile, answers: Answers) -> Draft:
     _refuse_unknown(kind, answers)
     sheet, selection_notes = selected_rows(file.table(_decimal(answers)), answers)
     sheet, speed_notes = with_speed(sheet, answers)
+    answers = with_whole_headers(answers, sheet.cells)
     with_ratio, left_to_answer, ratio_notes = over_load(sheet, answers)
     if kind is None:
         refuse_unrecognised(with_ratio.cells, name, answers)
@@ -163,7 +164,10 @@ def _columns(
     columns |= constants(kind, answers, len(sheet.lines))
     where = f"{sheet.name}: {matched.headers.get(quantity, quantity)}"
     columns, density_note = as_dynamic(columns, matched.units, answers, where)
-    return columns, [note for note in (count_note, density_note) if note], clock_notes
+    sum_note = ""
+    if (mean := "entrainment_speed_m_s") in matched.headers and mean in columns:
+        columns[mean], sum_note = halved_sum(columns[mean], matched.headers[mean])
+    return columns, [note for note in (count_note, density_note, sum_note) if note], clock_notes
 
 
 def _pooled(free: Cells, conditions: Collection[np.ndarray], file: str) -> Iterator[Finding]:

@@ -22,6 +22,35 @@ FROM_BOTH_SPEEDS = {
 }
 
 
+SUM = re.compile(r"\bsum\b|\bsumme|\b[uv][ _]?1 *\+ *[uv][ _]?2\b|\b[uv][ _]?(?:sum|\u03c3)\b")
+"""Words of the sum of both surface speeds, which is twice the entrainment speed."""
+TURNING = (
+    "surface speeds are pi n R/30 with n in 1/min and R in m; entrainment is their mean, the slide-roll ratio their "
+    "difference over the mean"
+)
+
+
+def halved_sum(speeds: np.ndarray, header: str) -> tuple[np.ndarray, str]:
+    """Entrainment speed from a column, with a note if that is the sum of both surface speeds.
+
+    >>> halved_sum(np.array([4.0]), "Sum speed u1+u2 (m/s)")[0].tolist(), halved_sum(np.array([4.0]), "u (m/s)")[1]
+    ([2.0], '')
+    """
+    if not SUM.search(words_of(header)):
+        return speeds, ""
+    return 0.5 * speeds, f"{header!r} is a sum of both surface speeds: half of it is the entrainment_speed_m_s"
+
+
+def turning(cells: Cells) -> list[str]:
+    """Headers of rotational speeds of two bodies.
+
+    >>> turning({"n1 (U/min)": ["1"], "n2 (min-1)": ["1"], "motor (rpm)": ["1"]})
+    ['n1 (U/min)', 'n2 (min-1)']
+    """
+    words = {words_of(h): h for h in cells if change_to(split(h)[1] or "", "rpm") is not None}
+    return [h for w, h in words.items() if any(other in words for other in _opposite(w))]
+
+
 def other_surface(header: str, cells: Cells) -> str | None:
     """Header of the other surface's speed, if the table has both speeds and they differ.
 

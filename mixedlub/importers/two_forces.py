@@ -19,6 +19,8 @@ from mixedlub.schema.units import change_to, split, words_of
 COEFFICIENT, SD, LOAD = "friction_coefficient", "friction_coefficient_sd", "load_N"
 FRICTION = re.compile(r"\b(?:friction|tangential|traction|reib)")
 """Words of a friction force."""
+NORMAL = re.compile(r"normal ?(?:force|load|kraft)\b")
+"""First words of a load, which a symbol may follow."""
 LEAST_LOAD = 0.01
 """Judgement. Load over the median load below which bodies do not touch and the load cell shows noise."""
 
@@ -84,7 +86,9 @@ def _load(sheet: Sheet, force: str, answers: Answers) -> tuple[np.ndarray, str] 
         return np.full(len(sheet.lines), float(constant)), f"the load of {constant:g} N"
     others = {h: values for h, values in sheet.cells.items() if h != force and is_numeric(values)}
     named = answers.get(COLUMNS + LOAD)
-    headers = [h for h in others if target_of(h) == BY_NAME[LOAD]] if named is None else [named]
+    headers = (
+        [h for h in others if target_of(h) == BY_NAME[LOAD] or NORMAL.match(words_of(h))] if named is None else [named]
+    )
     loads = [h for h in headers if h in others and _unit(h, LOAD, answers)]
     if len(loads) != 1:
         return None

@@ -8,7 +8,7 @@ LOAD = Column(
     "load_N",
     above=0.0,
     meaning="normal load",
-    words=("load", "ball load", "pin load", "normal load", "normal force", "normal"),
+    words=("load", "ball load", "pin load", "normal load", "normal force", "normal", "normalkraft"),
     hints=("fn", "fz"),
 )
 ENTRAINMENT_SPEED = Column(
@@ -29,7 +29,7 @@ OIL_TEMPERATURE = Column(
     at_least=-60.0,
     at_most=300.0,
     meaning="temperature of the oil where it enters the contact",
-    words=("oil temperature", "oil temp", "lubricant temperature", "lube temp", "lube rtd temp"),
+    words=("oil temperature", "oil temp", "lubricant temperature", "lube temp", "lube rtd temp", "öltemperatur"),
 )
 TIME = Column(
     "time_s",
@@ -49,6 +49,8 @@ FRICTION = Column(
     words=(
         *("traction coeff", "friction coefficient", "cof", "friction coeff", "traction coefficient"),
         *("coefficient of friction", "coeff. of friction", "mu", "µ", "μ"),
+        *("reibungszahl", "reibzahl", "reibwert", "reibbeiwert", "reibungskoeffizient", "reibungsbeiwert"),
+        *("gleitreibungszahl", "gleitreibung", "haftreibungszahl", "haftreibung"),
     ),
 )
 

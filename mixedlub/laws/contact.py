@@ -220,6 +220,16 @@ def asperity_load_ratio(asperity_pressure: np.ndarray, mean_pressure: np.ndarray
     return asperity_pressure / mean_pressure
 
 
+def asperity_real_pressure(asperity_pressure: np.ndarray, area_ratio: np.ndarray) -> np.ndarray:
+    r"""Mean pressure on the real contact area of the asperities (Pa), :math:`p_a/A`; 0 where none touch.
+
+    >>> asperity_real_pressure(np.array([2.1e9, 0.0]), np.array([0.5, 0.0])).tolist()
+    [4200000000.0, 0.0]
+    """
+    touching = np.broadcast_to(area_ratio > 0.0, np.broadcast_shapes(np.shape(asperity_pressure), np.shape(area_ratio)))
+    return np.divide(asperity_pressure, area_ratio, out=np.zeros(touching.shape), where=touching)
+
+
 def asperity_load_share(asperity_pressure: np.ndarray, mean_pressure: np.ndarray) -> np.ndarray:
     r"""Share of the load that asperities carry (-), :math:`p_a/p_m` with the mean Hertz pressure, at most 1.
 

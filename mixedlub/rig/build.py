@@ -314,8 +314,9 @@ def _check(name: str, across: Traces) -> None:
 
     with _of_surface(name):
         texts = [t for raw, one in zip(across.raw, across.filtered) for t in trace_warnings(one, moments(one), raw=raw)]
+    doubtful = {one.origin.get("units_doubtful") for one in across.raw}
     for text in dict.fromkeys(texts):
-        report(finding("trace_quality", text, f"surfaces.{name}"))
+        report(finding("value_unusual" if text in doubtful else "trace_quality", text, f"surfaces.{name}"))
 
 
 def surface(name: str, section: surface_file.SurfaceSection, found: Measured | None = None) -> Surface:

@@ -86,7 +86,8 @@ def _roughness(surface: Surface, place: str, section: surface_file.SurfaceSectio
     if section.is_measured:
         moments = (("m0_um2", surface.m0 * 1e12), ("m2", surface.m2), ("m4_per_um2", surface.m4 * 1e-12))
         for key, value in moments:
-            yield from ranges.atypical(f"surfaces.{key}", value, f"{place}, {key} as measured")
+            advice = "check the units, cut-offs and form of the measured heights"
+            yield from ranges.atypical(f"surfaces.{key}", value, f"{place}, {key} as measured", advice)
     bandwidth = surface.m0 * surface.m4 / surface.m2**2
     if not BANDWIDTH[0] <= bandwidth <= BANDWIDTH[1]:
         text = (

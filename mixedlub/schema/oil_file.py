@@ -135,8 +135,9 @@ def shipped_oil(name: str) -> OilFile:
     'mineral'
     """
     if name not in oil_names():
-        own = "; an oil of your own is a file whose name ends in .toml"
-        raise InputError(f"no such oil; {nearest(name, oil_names())}{own}", where="oil", value=name)
+        bases = f"base stocks are {', '.join(STOCKS)}, by the key base"
+        own = f"{bases}; an oil of your own is a file whose name ends in {SUFFIX}"
+        raise InputError(f"no such oil; {nearest(name, oil_names())}; {own}", where="oil", value=name)
     return parse(OilFile, tomllib.loads(_text(name)), f"oil {name}")
 
 

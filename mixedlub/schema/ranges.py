@@ -104,8 +104,9 @@ def _entries(value: Any) -> Iterator[tuple[str, float]]:
         yield "", value
 
 
-def atypical(key: str | Range, value: float, place: str) -> list[Finding]:
-    """Finding on a possible value outside the typical range; empty for a typical value.
+def atypical(key: str | Range, value: float, place: str, advice: str = "") -> list[Finding]:
+    """Finding on a possible value outside the typical range, with its probable unit unless other ``advice`` is given;
+    empty for a typical value.
 
     >>> print(*atypical("lubricant.eyring_stress_MPa", 90.0, "lubricant.eyring_stress_MPa"))
     lubricant.eyring_stress_MPa: 90, where rigs have 0.3 to 60 MPa: check the number and its unit
@@ -116,7 +117,7 @@ def atypical(key: str | Range, value: float, place: str) -> list[Finding]:
         return []
     name = within.key.rpartition(".")[2]
     typical = f"at least {low:g}" if high == np.inf else f"{low:g} to {high:g}"
-    unit = probable_unit(name, value, low, high).removesuffix(ASKED) or "check the number and its unit"
+    unit = advice or probable_unit(name, value, low, high).removesuffix(ASKED) or "check the number and its unit"
     text = f"{value:.6g}, where rigs have {typical} {unit_of(name)}".rstrip()
     return [finding("value_unusual", f"{text}: {unit}", place)]
 

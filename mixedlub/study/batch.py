@@ -21,7 +21,7 @@ import numpy as np
 from mixedlub.chain.model import Model, Step
 from mixedlub.chain.ranges import farthest_beyond
 from mixedlub.laws.balance import share_lacking
-from mixedlub.laws.contact import asperity_load_ratio, mean_hertz_pressure
+from mixedlub.laws.contact import asperity_load_ratio, asperity_real_pressure, mean_hertz_pressure
 from mixedlub.laws.load import carries_load
 from mixedlub.laws.loss import over_path
 from mixedlub.running.cluster import on_cluster
@@ -200,7 +200,7 @@ def reduced(state: Inputs, plan: Plan) -> Found:
         "other_loss": state["power_loss"] - in_mesh,
         "hertz_pressure": largest(pressure),
         "asperity_load_ratio": asperity_load_ratio(carried, there(mean_pressure)),
-        "asperity_real_pressure": np.divide(carried, touching, out=np.zeros_like(carried), where=touching > 0.0),
+        "asperity_real_pressure": asperity_real_pressure(carried, touching),
         "largest_area_ratio": touching,
         FILM_OVER_WIDTH: _largest(_over_width(state), judged),
         "plain_mean_friction": over_path(state["friction"], weight),

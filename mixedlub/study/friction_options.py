@@ -60,13 +60,15 @@ def check_friction(file: StudyFile, model: Model) -> None:
         if option in options.model_fields_set:
             rule = f"friction = {options.friction!r} does not read it; leave it out"
             raise InputError(rule, where=f"options.{option}", value=getattr(options, option))
+    read = {name for step in model.steps for name in step.reads}
+    if (key := "boundary_friction") in read and key not in file.model_fields_set:
+        report(finding("boundary_friction_assumed", f"{file.boundary_friction:g} assumed", key))
     if options.friction == friction.BASE:
         return
     if options.balance != "none":
         rule = f"goes with the base model's friction; friction = {options.friction!r} is fitted to films without it"
         raise InputError(f"{rule}; leave one of them out", where="options.balance", value=options.balance)
     law = friction.find(options.friction)
-    read = {name for step in model.steps for name in step.reads}
     if "boundary_friction" in file.model_fields_set and "boundary_friction" not in read:
         report(finding("boundary_friction_unread", f"{law.name} does not read it", "boundary_friction"))
     if law.diverges_at_pitch_point:

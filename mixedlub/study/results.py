@@ -88,7 +88,7 @@ class Results:
         conditions = (span(name, np.array(getattr(levels, name))) for name in ("torque_Nm", "speed_rpm", LEVELS[0]))
         outputs = (span(c.name, c.of(self[c.output])) for c in FIRST if c.output in SUMMARISED)
         count = int(self.outside.sum())
-        outside = f"{count} rows are outside the range of the model: {listed(list(self.flags))}"
+        outside = f"{count} rows are outside the range of the model: {listed(list(self.flags), 2)}"
         return "\n  ".join(
             (
                 f"Results of {named!r}: {' x '.join(factors(self.study))} = {counted(self.study.conditions, 'row')}",

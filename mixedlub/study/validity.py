@@ -7,7 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
-from mixedlub.base_model.limits import BALANCE, contact_limits
+from mixedlub.base_model.limits import BALANCE, YIELDING, contact_limits, of_bearing_asperities
 from mixedlub.chain.ranges import EXTRAPOLATED, Reached, findings, flags
 from mixedlub.chain.slots import SLOTS
 from mixedlub.laws.oil import kinematic
@@ -40,7 +40,10 @@ def reached(plan: Plan, values: Mapping[str, np.ndarray]) -> Reached:
     nu = kinematic(plan.inputs["viscosity"], plan.inputs["oil_density"])
     at_oil = {"oil_temperature": plan.inputs["oil_temperature"], "kinematic_viscosity": nu}
     known |= {name: np.asarray(value)[..., 0] for name, value in at_oil.items()} | dict(values)
-    of_contact = [(limit, known[limit.quantity]) for limit in contact_limits(plan.inputs) if limit.quantity in known]
+    real = "asperity_real_pressure"
+    known[real] = of_bearing_asperities(known[real], known["asperity_load_ratio"])
+    limits = contact_limits(plan.inputs, tuple(plan.parameters))
+    of_contact = [(limit, known[limit.quantity]) for limit in limits if limit.quantity in known]
     return [*of_contact, *((limit, values[BEYOND + limit.key]) for limit in plan.limits)]
 
 
@@ -58,7 +61,8 @@ def flags_of(plan: Plan, values: Mapping[str, np.ndarray], notes: Iterable[Findi
 def out_of_range(results: Results) -> tuple[Finding, ...]:
     """Findings on conditions outside the valid range of the laws, worst first."""
     plan, count = results.study.plan, len(results.study.pairings)
-    more = {"asperities_overloaded": BALANCE} if plan.friction is None and not plan.balanced else {}
+    more = {"asperities_above_hardness": YIELDING} if plan.friction is None else {}
+    more |= {"asperities_overloaded": BALANCE} if plan.friction is None and not plan.balanced else {}
     rows = f"conditions of {count} pairings" if count > 1 else "conditions"
     return findings(reached(plan, results.values), plan.shape, rows, lambda code: _place(results.study, code), more)
 

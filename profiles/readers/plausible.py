@@ -43,14 +43,7 @@ def inferred_units(step: float, heights: np.ndarray, where: str, known: Units = 
     """
     if known[0] and known[1]:
         return known[0], known[1]
-    slope = typical_slope(step, heights)
-    weights = {
-        (x, z): USUAL.get((x, z), 0.01 if (x in _INCHES) == (z in _INCHES) else 0.001)
-        * (1.0 if known[0] else _weight(step * METRES[x], 0.6e-6, (0.5, 0.5), _STEPS))
-        * _weight(slope * METRES[z] / METRES[x], 0.05, (0.5, 0.35), _SLOPES)
-        for x in ([known[0]] if known[0] else _POSITIONS)
-        for z in ([known[1]] if known[1] else _HEIGHTS)
-    }
+    weights = _weights(step, typical_slope(step, heights), known)
     best, *others = sorted(weights, key=lambda pair: -weights[pair])
     if weights[best] == 0.0:
         rule = f"{_named(known)}, and none can be inferred: heading 'x_mm, z_um', or give them as unit 'mm, um'"
@@ -74,15 +67,36 @@ def inferred_note(known: Units, found: tuple[str, str]) -> str:
     return f"{_named(known)}; inferred from the numbers: {', '.join(new)}"
 
 
-def doubt(step: float, heights: np.ndarray) -> str | None:
-    """Reason to doubt a trace: step (m) or typical slope outside measured traces, for heights in m."""
-    slope = typical_slope(step, heights)
+def doubt(step: float, heights: np.ndarray, units: tuple[str, str]) -> str | None:
+    """Reason to doubt a trace by its step (m) or typical slope, for heights in m, and the unit that suits its numbers.
+
+    >>> doubt(0.5e-6, np.arange(9) * 36e-6, ("mm", "mm"))
+    'a typical slope of 1.1e+02, unlike a measured trace; are the heights in um?'
+    """
+    slope, (x, z) = typical_slope(step, heights), units
+    known: Units
     if not _STEPS[0] <= step <= _STEPS[1]:
-        return f"a step of {step * 1e6:.3g} um"
+        said, what, known = f"a step of {step * 1e6:.3g} um", "positions", (None, z)
     # a trace of flats has no typical slope
-    if slope and not _SLOPES[0] <= slope <= _SLOPES[1]:
-        return f"a typical slope of {slope:.2g}"
-    return None
+    elif slope and not _SLOPES[0] <= slope <= _SLOPES[1]:
+        said, what, known = f"a typical slope of {slope:.2g}", "heights", (x, None)
+    else:
+        return None
+    weights = _weights(step / METRES[x], slope * METRES[x] / METRES[z], known)
+    best = max(weights, key=lambda pair: weights[pair])
+    asked = f"; are the {what} in {best[known[1] is None]}?" if weights[best] else ""
+    return f"{said}, unlike a measured trace{asked}"
+
+
+def _weights(step: float, slope: float, known: Units) -> dict[tuple[str, str], float]:
+    """Weights of the pairs of units with these known units, for a step and slope as written."""
+    return {
+        (x, z): USUAL.get((x, z), 0.01 if (x in _INCHES) == (z in _INCHES) else 0.001)
+        * (1.0 if known[0] else _weight(step * METRES[x], 0.6e-6, (0.5, 0.5), _STEPS))
+        * _weight(slope * METRES[z] / METRES[x], 0.05, (0.5, 0.35), _SLOPES)
+        for x in ([known[0]] if known[0] else _POSITIONS)
+        for z in ([known[1]] if known[1] else _HEIGHTS)
+    }
 
 
 def typical_slope(step: float, heights: np.ndarray) -> float:

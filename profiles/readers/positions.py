@@ -74,12 +74,13 @@ def _resampled(
         raise InputError(rule, where=where, value=repeated)
     count = int((positions[-1] - positions[0]) / step + 1e-9) + 1
     if not 3 <= count <= min(DENSER * positions.size, MAX_POINTS):
-        rule = f"positions are too unequal for a trace: most steps are {step:.3g}, the largest is {steps.max():.3g}"
+        rule = f"positions are too unequal for a trace: the largest step is {steps.max() / step:.3g} times the median"
         raise InputError(rule, where=where)
     places = positions[0] + step * np.arange(count)
     before = np.clip(np.searchsorted(positions, places, side="right") - 1, 0, steps.size - 1)
     inside = present[before] & present[before + 1] & (steps[before] <= GAP * step)
     measured = np.where(places - positions[before] <= 1e-6 * step, present[before], inside)
-    said = f"{RESAMPLED} of {step:.4g} by a cubic spline, as its steps are {steps.min():.4g} to {steps.max():.4g}"
+    least, most = steps.min() / step, steps.max() / step
+    said = f"{RESAMPLED} by a cubic spline, as its steps are {least:.4g} to {most:.4g} times their median"
     z = PchipInterpolator(positions, heights)(places)
     return Sampled(bridged(z, measured, where), measured, step, (*notes, said))

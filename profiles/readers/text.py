@@ -64,7 +64,7 @@ def read_table(
     if columns.shape[0] > 2:
         rule = (
             f"one or two columns are needed, [position,] height, not {columns.shape[0]}: save each column of heights "
-            "with its positions as a file of its own"
+            "with its positions as a file of its own; a height map is read from x3p and SDF files, not from text"
         )
         raise InputError(rule, where=source.where)
     if columns.shape[1] < 3:
@@ -77,9 +77,9 @@ def read_table(
     found, units, more = read(source, content, settings, written, origin)
     notes = (*notes, *found.notes, *more, *_results(content, metres(units[1]), origin))
     heights, step = found.heights * metres(units[1]), found.step * metres(units[0])
-    strange = doubt(source.spacing or step, heights) if source.unit is None and units == written else None
-    if strange and columns.shape[0] == 2:
-        origin["units_doubtful"] = f"{origin['units']} by the heading: {strange}, unlike a measured trace"
+    strange = doubt(source.spacing or step, heights, units) if source.unit is None and units[1] == written[1] else None
+    if strange and (columns.shape[0] == 1 or units == written):
+        origin["units_doubtful"] = f"{origin.get('units', f'height {units[1]}')} by the heading: {strange}"
     return make_profile(source, heights, step, origin, steps=notes, present=found.present)
 
 

@@ -189,6 +189,20 @@ def test_a_german_table_has_semicolons_and_decimal_commas(gears, tmp_path):
     assert main(["gear", str(gears), "--out", "u", "--csv-style", "germn"]) == 2
 
 
+def test_a_rerun_in_another_style_says_what_it_replaces(gears, capsys):
+    again = ["gear", str(gears), "--out", "o", "--no-figures"]
+    assert main([*again, "--xlsx", "--csv-style", "german"]) == 0
+    assert "earlier run" not in capsys.readouterr().err
+    assert main(again) == 0
+    said = capsys.readouterr().err
+    assert said.count("--csv-style german keeps it") == 1
+    assert said.count("--xlsx writes it anew") == 1
+    assert main(again) == 0
+    assert "earlier run" not in capsys.readouterr().err
+    assert main([*again, "--csv-style", "german"]) == 0
+    assert "--csv-style plain keeps it" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("words", [("--out", "~/results"), ("--out=~/results",)])
 def test_the_home_folder_is_meant_by_its_sign(words, gears, tmp_path, monkeypatch):
     monkeypatch.setenv("HOME", str(tmp_path / "home"))

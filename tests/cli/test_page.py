@@ -71,6 +71,7 @@ def test_page_states_the_inputs_it_assumed_and_the_study_file(page, folder):
     inputs = page[page.index('id="inputs"') : page.index('id="options"')]
     for key, value in (("tip_diameter_mm", "80.43333 / 118.5333 mm"), ("centre_distance_mm", "91.01667 mm")):
         assert re.search(rf"<code>{key}</code></td><td>{value} <i>\(assumed\)</i>", inputs), key
+    assert "<td>boundary friction coefficient</td><td>0.1 <i>(assumed)</i>" in inputs
     for words in ("helix_angle_deg", "profile_shift", "load_sharing", "transverse contact ratio"):
         assert words in inputs, words
     (given,) = re.findall(r"<details>.*?<pre>(.*?)</pre>", inputs, re.DOTALL)

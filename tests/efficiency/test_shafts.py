@@ -214,3 +214,21 @@ def test_loads_of_every_bearing_balance_the_mesh() -> None:
         assert a + b == pytest.approx(-wheel.transverse)
         moments = (z - 0.2) * wheel.transverse - wheel.arm * thrust + (first - 0.2) * a + (second - 0.2) * b
         assert abs(moments) < 1e-9 * (1.0 + abs(a) + abs(b))
+
+
+@pytest.mark.parametrize(("position_mm", "doubted"), [(50.0, False), (600.0, False), (3000.0, True), (-3000.0, True)])
+def test_a_bearing_metres_from_its_gear_is_doubted(tmp_path: Path, position_mm: float, doubted: bool) -> None:
+    """The centre distance of the gears is 102 mm."""
+    right = RIGHT | {"position_mm": position_mm}
+    found = read_gearbox(written(tmp_path, gearbox_file(stage(left=LEFT, right=right))))[1]
+    told = [one for one in found if one.code == "value_unusual"]
+    assert [one.place for one in told] == ["stages.a.bearings.right.position_mm"] * doubted
+    assert all("29 times the centre distance" in one.text for one in told)
+
+
+def test_a_shared_shaft_of_metres_is_doubted(tmp_path: Path) -> None:
+    spur = {"teeth": [30, 30], "normal_module_mm": 2.0, "face_width_mm": 20.0}
+    second = stage(spur, None) | {"shared_shaft": {"distance_mm": 4000.0}}
+    middle = {"left": LEFT | {"shaft": "gear"}, "right": RIGHT | {"shaft": "gear"}}
+    found = read_gearbox(written(tmp_path, gearbox_file(stage(spur, None, **middle), second)))[1]
+    assert [one.place for one in found if one.code == "value_unusual"] == ["stages.b.shared_shaft.distance_mm"]

@@ -79,3 +79,29 @@ def test_neither_is_offered_as_the_speed_of_a_map():
 )
 def test_what_is_no_pair_of_different_speeds_is_left_alone(header, cells):
     assert other_surface(header, cells) is None
+
+
+@pytest.mark.parametrize("header", ["Summengeschwindigkeit [m/s]", "Sum speed (m/s)", "u1+u2 [m/s]", "v_sum (m/s)"])
+def test_a_sum_of_both_speeds_is_halved_and_said(header):
+    told = {**DISC, "import.columns.entrainment_speed_m_s": header}
+    text = discs().replace("v1 (m/s);v2 (m/s)", f"{header};extra")
+    found = draft(InputFile("t.csv", text), told)
+    assert found.columns["entrainment_speed_m_s"].tolist() == [1.5, 2.0, 2.5, 3.0, 3.5]
+    assert any(repr(header) in str(note) and "half of it" in str(note) for note in found.notes)
+
+
+@pytest.mark.parametrize("unit", ["U/min", "1/min", "min-1", "min^-1", "rpm"])
+def test_speeds_of_two_turning_discs_are_asked_for_with_the_way_to_the_speeds_of_the_contact(unit):
+    found = draft(InputFile("t.csv", discs(f"n1 [{unit}]", f"n2 [{unit}]")), DISC)
+    asked = {q.key.rpartition(".")[2]: q for q in found.questions}
+    for column in ("entrainment_speed_m_s", "slide_roll_ratio"):
+        assert f"n1 [{unit}], n2 [{unit}]: surface speeds are pi n R/30" in asked[column].text
+        assert not asked[column].offered
+
+
+@pytest.mark.parametrize("name", ["Reibungszahl", "Reibwert", "Reibungskoeffizient", "Haftreibung", "Haftreibungszahl"])
+def test_german_names_of_friction_are_readings_and_need_no_unit_in_an_answer(name):
+    text = discs().replace("mu (-)", f"{name} [-]")
+    assert "friction_coefficient" in draft(InputFile("t.csv", text), DISC).columns
+    told = {**DISC, "import.columns.friction_coefficient": name}
+    assert draft(InputFile("t.csv", text), told).columns["friction_coefficient"].size == 5

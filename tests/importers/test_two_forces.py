@@ -117,3 +117,23 @@ def test_the_spread_of_the_force_is_told_and_divided_by_answer():
 def test_the_spread_of_the_load_is_none_of_the_force():
     found = read("Time [s],Friction force [N],Load [N],Load sd [N]", rows="0,1,10,1\n1,2,20,1\n")
     assert "column_not_taken" not in {n.code for n in found.notes}
+
+
+@pytest.mark.parametrize(
+    ("friction", "load"),
+    [
+        ("Friction force [N]", "Normal force [N]"),
+        ("Friction force FR [N]", "Normal force FN [N]"),
+        ("Reibkraft [N]", "Normalkraft [N]"),
+        ("Reibungskraft [N]", "Normalkraft F_N [N]"),
+    ],
+)
+def test_forces_of_two_discs_are_divided_too(friction, load):
+    found = read(
+        f"{friction},{load},Öltemperatur [°C]", {"kind": "disc", "import.columns.load_N": load}, "50,1000,60\n" * 3
+    )
+    assert found.columns["friction_coefficient"].tolist() == pytest.approx([0.05] * 3)
+    assert found.columns["oil_temperature_C"].tolist() == [60.0] * 3
+    asked = {q.key: q.example for q in read(f"{friction},{load}", {"kind": "disc"}, "50,1000\n51,1000\n").questions}
+    assert "import.columns.friction_coefficient" not in asked
+    assert asked.get("import.columns.load_N", f'"{load}"') == f'"{load}"'

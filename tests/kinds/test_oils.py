@@ -176,6 +176,7 @@ def test_a_study_runs_with_a_named_oil_as_with_its_numbers(tmp_path: Path) -> No
     [
         ('oil = "n10"', "no such oil; nearest known: 'n100'"),
         ('oil = "own.tml"', "no such oil"),
+        ('oil = "mineral"', "base stocks are mineral, pao, ester, pag, by the key base"),
         ('oil = "nowhere.toml"', "nowhere.toml: no such file"),
         ("oil = 3", "must be text"),
         ('oil = "broken.toml"', "broken.toml: properties.eyring_stress_MPa.status"),

@@ -1,4 +1,4 @@
-"""Traces clipped at the end of the instrument's range, and those that only look alike."""
+"""Traces clipped at the end of the range or held constant, and those that only look alike."""
 
 import numpy as np
 import pytest
@@ -75,3 +75,24 @@ def test_waves_arcs_and_squares_are_not_clipped(quantum):
     arc = -1e-5 * (x / 3000.0 - 1.0) ** 2 + 0.05e-6 * np.random.default_rng(1).standard_normal(6000)
     for z in (1e-6 * np.sin(x / 31.7), arc, 1e-6 * np.sign(np.sin(x / 40.0 + 0.01))):
         assert not clipping(Profile(rounded(z, quantum), STEP))
+
+
+@pytest.mark.parametrize("level", [0.0, 1e-6, None], ids=["mean", "above", "top"])
+@pytest.mark.parametrize(("first", "last"), [(7400, 8000), (4000, 4600), (0, 300)])
+@pytest.mark.parametrize("quantum", [0.0, 0.01 * SIGMA, 0.1 * SIGMA])
+def test_a_stretch_of_constant_heights_is_told_with_its_ends(quantum, first, last, level):
+    for correlation in (2, 8, 16):
+        z = rounded(gaussian(3, correlation), quantum)
+        z[first:last] = z.max() if level is None else level
+        found = clipping(Profile(z, STEP))
+        (ends,) = found.constant
+        assert ends == pytest.approx((first * STEP, (last - 1) * STEP), abs=20 * STEP)
+        assert f"heights constant from {1e3 * ends[0]:.4g} to " in str(found)
+    assert trace_record(Profile(z, STEP), cutoff=None)[1]["gaussian"]["verdict"] == "not_gaussian"
+
+
+def test_several_constant_stretches_are_all_told():
+    z = gaussian(5)
+    for start in (500, 3000, 7000):
+        z[start : start + 200] = 0.0
+    assert [round(one[0] / STEP) for one in clipping(Profile(z, STEP)).constant] == [500, 3000, 7000]

@@ -12,6 +12,7 @@ import pytest
 
 from mixedlub.chain.friction_law import FrictionLaw
 from mixedlub.friction import BASE, catalogue, condensed
+from mixedlub.schema.findings import codes
 from mixedlub.schema.toml_file import to_toml
 from mixedlub.study import read_study, run_study
 from mixedlub.study.record import resolved
@@ -135,7 +136,10 @@ def test_notes_say_what_is_assumed_unread_and_divergent(write_study: Any) -> Non
     assert "pitch point" in said["friction_diverges"]
     said = {one.code: str(one) for one in study(write_study, "schlenk").notes}
     assert "lubricant_factor = 1" in said["friction_coefficient_assumed"]
-    assert not {"boundary_friction_unread", "friction_diverges"} & said.keys()
+    assert not {"boundary_friction_unread", "friction_diverges", "boundary_friction_assumed"} & said.keys()
+    said = {one.code: str(one) for one in read_study(write_study()).notes}
+    assert said["boundary_friction_assumed"] == "boundary_friction: 0.1 assumed"
+    assert "boundary_friction_assumed" not in codes(read_study(write_study(boundary_friction=0.1)).notes)
 
 
 def test_the_record_of_a_study_runs_again(write_study: Any, tmp_path: Any) -> None:

@@ -2,6 +2,7 @@
 
 import warnings
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -123,3 +124,46 @@ def test_a_recording_of_an_oil_below_the_range_of_d341_is_not_quantitative(tmp_p
     assert case.recordings is not None
     grades = flags(judge_rows(Forward(case, case.recordings)).reached, (3,))["viscosity_below_d341"]
     assert grades.tolist() == [0, 0, 2]
+
+
+COARSE = {"coarse": {"m0_um2": 0.3, "m2": 0.02, "m4_per_um2": 0.03}}
+"""Slopes of 0.14, at which elastic asperities bear about 13 GPa."""
+HARDNESS = "asperities_above_hardness"
+
+
+@pytest.mark.parametrize(
+    ("change", "judged"),
+    [
+        ({}, True),
+        ({"options": {"asperities": "greenwood_tripp"}}, True),
+        ({"options": {"asperities": "kogut_etsion", "hardness_GPa": 6.0}}, False),
+        ({"effects": {"asperity_plasticity": {"hardness": 6e9}}}, False),
+    ],
+)
+def test_elastic_asperities_pressed_beyond_the_hardness_of_steel_are_told(
+    change: dict[str, Any], judged: bool, write_study: StudyWriter
+) -> None:
+    found = run_study(read_study(write_study(surfaces=COARSE, **change)))
+    pressure = found["asperity_real_pressure"]
+    grades = flags_of(found.study.plan, found.values).get(HARDNESS, np.zeros(pressure.shape, int))
+    expected = np.where(pressure > 16e9, 2, np.where(pressure > 8e9, 1, 0)) if judged else 0 * grades
+    assert np.array_equal(grades, np.where(found["asperity_load_ratio"] < 0.05, 0, expected))
+    assert grades.any() == judged
+
+
+def test_a_recording_of_rough_flanks_notes_their_real_pressure() -> None:
+    case = read_case(EXAMPLE)
+    assert case.recordings is not None
+    judged = judge_rows(Forward(case, case.recordings))
+    (values,) = (values for limit, values in judged.reached if limit.code == HARDNESS)
+    assert np.nanmax(values, initial=9e9) > 8e9
+    assert all(one.severity == Severity.NOTE for one in judged.findings if one.code == HARDNESS)
+
+
+def test_a_far_number_and_the_quantity_behind_it_are_in_plain_words() -> None:
+    film, pressure = (
+        Limit("a", "share_lacking", (0.0, 1.0), "", meaning="one over another"),
+        Limit("b", "hertz_pressure", (0.0, 4e9), ""),
+    )
+    assert film.reach(np.array([2.9e6])) == "one over another 0 to 1, here over 1000"
+    assert pressure.reach(np.array([17.4e9])).endswith("dry contact 0 to 4000 MPa, here up to 17400 MPa")
