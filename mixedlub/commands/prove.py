@@ -44,6 +44,15 @@ def command(
             "--forms", help="Single effects alone, every published form of each in turn, on rigs of all kinds."
         ),
     ] = False,
+    real: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DIR", parser=named_folder, help="Recordings of real rigs in this folder, with concealed truths."
+        ),
+    ] = None,
+    split: Annotated[
+        str, typer.Option(metavar="NAME", help="Sources of --real to use: development or test.")
+    ] = "development",
     kinds: Annotated[
         str | None, typer.Option(metavar="KIND,...", help="Kinds of rig to deal, such as gear_pair,film.")
     ] = None,
@@ -73,9 +82,12 @@ def command(
     from mixedlub.validation.battery import fewest, plan
     from mixedlub.validation.forms import every_form, plan_forms
     from mixedlub.validation.poor import plan_poor
+    from mixedlub.validation.real import judge
     from mixedlub.validation.rigs import CONTACTS, OTHERS
     from mixedlub.validation.worlds.deal import plan_worlds, worlds_of
 
+    if real is not None and (rigs or worlds or poor or forms):
+        raise InputError("is a battery of its own", where="--real")
     if worlds and poor:
         raise InputError("is dealt of rigs that follow the base laws: leave out --worlds", where="--poor")
     if forms and (worlds or poor):
@@ -89,7 +101,8 @@ def command(
     default = least if forms else max(default, least)
     prefix = "" if chosen in (CONTACTS, every) else "rigs_" if chosen == OTHERS else f"{'_'.join(chosen)}_"
     dealing = "worlds_" if worlds else "poor_" if poor else "forms_" if forms else ""
-    folder = output_folder(out, NAME, dealing + prefix + ("quick" if quick else "battery"))
+    name = f"real_{split}" if real is not None else dealing + prefix + ("quick" if quick else "battery")
+    folder = output_folder(out, NAME, name)
     with Progress(console=Console(stderr=True)) as bar:
         tasks = {}
 
@@ -98,17 +111,20 @@ def command(
                 tasks[stage] = bar.add_task(stage, total=total)
             bar.update(tasks[stage], completed=done)
 
-        run.validate(
-            folder,
-            diagnose,
-            cases or default,
-            seed,
-            chosen,
-            jobs=jobs,
-            baselines=contacts and not quick,
-            progress=show,
-            dealt=plan_worlds if worlds else plan_poor if poor else plan_forms if forms else plan,
-        )
+        if real is not None:
+            judge.validate(real, folder, diagnose, split, seed, jobs, show)
+        else:
+            run.validate(
+                folder,
+                diagnose,
+                cases or default,
+                seed,
+                chosen,
+                jobs=jobs,
+                baselines=contacts and not quick,
+                progress=show,
+                dealt=plan_worlds if worlds else plan_poor if poor else plan_forms if forms else plan,
+            )
     echo((folder / "score.txt").read_text(encoding="utf-8"))
     echo(f"written to {folder}")
 

@@ -109,15 +109,15 @@ class Score:
     def save(self, file: Path) -> None:
         rows = [{**asdict(row), "met": row.met} for row in self.rows]
         data = {**asdict(self), "rows": rows}
-        file.write_text(json.dumps(_finite(data), indent=1, allow_nan=False), encoding="utf-8")
+        file.write_text(json.dumps(finite(data), indent=1, allow_nan=False), encoding="utf-8")
 
 
-def _finite(value: object) -> object:
+def finite(value: object) -> object:
     """The same data with null for numbers outside JSON (nan, infinity)."""
     if isinstance(value, dict):
-        return {key: _finite(item) for key, item in value.items()}
+        return {key: finite(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_finite(item) for item in value]
+        return [finite(item) for item in value]
     if isinstance(value, float) and not np.isfinite(value):
         return None
     return value

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -223,7 +223,7 @@ def _current_forms(motor: np.ndarray) -> tuple[Form, ...]:
     )
 
 
-def _outside(columns: dict[str, np.ndarray], time: np.ndarray) -> tuple[Form, ...]:
+def _outside(columns: Mapping[str, np.ndarray], time: np.ndarray) -> tuple[Form, ...]:
     def ringing(d: Drive, strength: float, centre: float, width: float) -> Drive:
         """Friction rises in one band of speed, at a resonance of the drive."""
         return _added(d, 0.2 * strength * d.level * np.exp(-0.5 * ((np.abs(d.speed) - centre) / width) ** 2) * d.sign)
@@ -294,6 +294,28 @@ def _programme(rng: np.random.Generator, styles: Sequence[str], top: float, torq
     return {"speed": speeds}
 
 
+def forms_of(
+    columns: Mapping[str, np.ndarray], share: np.ndarray, time: np.ndarray, as_torque: bool
+) -> tuple[tuple[Form, ...], tuple[Form, ...]]:
+    """Forms open to a drive inside and outside the catalogue; ``share``: speed over its largest size."""
+    forms = _speed_forms() + presliding(share) + stirring(share, as_torque) + channel(time, False, False, True)
+    if "load_N" in columns and not as_torque:
+        forms += force_cell(columns["load_N"], time)
+    made = {
+        "oil_temperature_C": _temperature_forms,
+        "load_N": under_load,
+        "additive_percent": _additive_forms,
+        "position_deg": _position_forms,
+        "motor_torque_Nm": _current_forms,
+    }
+    if "position_deg" in columns:
+        forms = channel(time, False, False, True)
+    for name, make in made.items():
+        if name in columns:
+            forms += make(columns[name])
+    return forms, _outside(columns, time)
+
+
 def draw(rng: np.random.Generator) -> Rig:
     """A drive, in newton metres against rpm or as a coefficient against sliding speed."""
     as_torque = rng.random() < 0.75
@@ -322,21 +344,7 @@ def draw(rng: np.random.Generator) -> Rig:
         state = Drive(dry * flat, viscous * share, constant * flat, np.sign(share), share, dry, flat, flat)
         return np.asarray(play(CHAIN, state, acts).recorded)
 
-    forms = _speed_forms() + presliding(share) + stirring(share, as_torque) + channel(time, False, False, True)
-    if "load_N" in columns and not as_torque:
-        forms += force_cell(columns["load_N"], time)
-    made = {
-        "oil_temperature_C": _temperature_forms,
-        "load_N": under_load,
-        "additive_percent": _additive_forms,
-        "position_deg": _position_forms,
-        "motor_torque_Nm": _current_forms,
-    }
-    if "position_deg" in columns:
-        forms = channel(time, False, False, True)
-    for name, make in made.items():
-        if name in columns:
-            forms += make(columns[name])
+    forms, outside = forms_of(columns, share, time, as_torque)
     return Rig(
         signed=True,
         settings={"schema": "mixedlub-case/1", "kind": "friction_map", "recording": {"quantity": quantity}},
@@ -345,6 +353,6 @@ def draw(rng: np.random.Generator) -> Rig:
         model=model,
         theta=lambda z: {},
         forms=forms,
-        outside=_outside(columns, time),
+        outside=outside,
         repeats=again,
     )

@@ -234,7 +234,7 @@ def draw(rng: np.random.Generator) -> Rig:
         outside=(),
         repeats=again,
     )
-    return _read(rng, rig, True)
+    return read_by(rng, rig, True)
 
 
 def draw_without_data_sheet(rng: np.random.Generator) -> Rig:
@@ -255,10 +255,10 @@ def draw_without_data_sheet(rng: np.random.Generator) -> Rig:
         repeats=again,
         planted=lambda acts: np.asarray(play(chain, start_of, acts).recorded),
     )
-    return _read(rng, rig, False)
+    return read_by(rng, rig, False)
 
 
-def _read(rng: np.random.Generator, rig: Rig, sheet: bool) -> Rig:
+def read_by(rng: np.random.Generator, rig: Rig, sheet: bool) -> Rig:
     """Rig with its instrument and all possible effects; a wrong span is visible only with a data ``sheet``."""
     columns = rig.columns
     nominal = rig.records(np.zeros(len(rig.names)), ())

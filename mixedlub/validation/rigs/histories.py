@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -90,16 +90,19 @@ def _numbered(columns: dict[str, np.ndarray], seconds: float) -> dict[str, np.nd
 
 
 def _held(rng: np.random.Generator, settings: dict[str, Any], columns: dict[str, np.ndarray], time: np.ndarray) -> Rig:
-    """A track with unknown oil and surfaces: the base model is a constant coefficient with a broad prior."""
-    middle = between(rng, 0.04, 0.13)
+    return on_track(settings, columns, time, np.full(len(time), between(rng, 0.04, 0.13)))
+
+
+def on_track(settings: dict[str, Any], columns: Mapping[str, np.ndarray], time: np.ndarray, middle: np.ndarray) -> Rig:
+    """A track with unknown oil and surfaces: the base model is the ``middle`` coefficient with a broad prior."""
     slip = columns.get("slide_roll_ratio", np.ones(len(time)))
 
-    def level(z: np.ndarray) -> float:
-        return float(middle * np.exp(BROAD * z[0]))
+    def factor(z: np.ndarray) -> float:
+        return float(np.exp(BROAD * z[0]))
 
     def model(z: np.ndarray, acts: Sequence[Act]) -> np.ndarray:
-        flat = np.full(len(time), level(z))
-        return np.asarray(play(BARE, Track(flat, flat), acts).recorded)
+        level = middle * factor(z)
+        return np.asarray(play(BARE, Track(level, level), acts).recorded)
 
     curves = len(np.unique(slip)) > 4
     forms = _all(histories(time)) + (creeps(slip) if curves else ()) + channel(time, curves, False, False)
@@ -107,10 +110,10 @@ def _held(rng: np.random.Generator, settings: dict[str, Any], columns: dict[str,
         forms += force_cell(columns["load_N"], time)
     return Rig(
         settings=settings,
-        columns=columns,
+        columns=dict(columns),
         names=("boundary_friction",),
         model=model,
-        theta=lambda z: {"boundary_friction": level(z)},
+        theta=lambda z: {"boundary_friction": float(middle[0]) * factor(z)},
         forms=forms,
         outside=_breaks(time),
     )

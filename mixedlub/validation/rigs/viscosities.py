@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -176,7 +176,7 @@ def _pressure_forms() -> tuple[Form, ...]:
     )  # fmt: skip
 
 
-def _outside(columns: dict[str, np.ndarray], time: np.ndarray) -> tuple[Form, ...]:
+def outside_of(columns: Mapping[str, np.ndarray], time: np.ndarray) -> tuple[Form, ...]:
     celsius = columns["temperature_C"]
     rate = np.sign(np.gradient(celsius)) if len(celsius) > 2 else np.zeros_like(celsius)
 
@@ -216,6 +216,11 @@ def _outside(columns: dict[str, np.ndarray], time: np.ndarray) -> tuple[Form, ..
         forms.append(Form("one_cell", "loss", one_cell, (either,), "constructed"))
     forms.append(Form("freezing", "loss", freezing, (up, Knob("where", 0.3, 0.8, (0.4, 0.7))), "constructed"))
     return tuple(forms)
+
+
+def forms_over(time: np.ndarray) -> tuple[Form, ...]:
+    """Forms of a sample without a data sheet that need its programme alone."""
+    return _drifts(time) + channel(time, True, False, False)
 
 
 def _table(rng: np.random.Generator) -> tuple[dict[str, np.ndarray], bool]:
@@ -330,7 +335,7 @@ def draw(rng: np.random.Generator) -> Rig:
         model=model,
         theta=fluid.theta,
         forms=forms,
-        outside=_outside(columns, time),
+        outside=outside_of(columns, time),
         quantile=0.1,
         floor=(0.05, 0.5),
         repeats=again,
