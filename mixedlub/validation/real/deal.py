@@ -28,6 +28,10 @@ MOST_WEIGHED = 120
 """Readings that count for the visibility and the rivals of a planted effect: dense logs repeat themselves."""
 WITHHELD = 0.1
 """Share of the readings withheld, at least two."""
+MOST_ROWS = 500
+"""Rows of a case: longer recordings are thinned evenly."""
+OVER_TIME = frozenset({"sensor_drift", "zero_drift", "force_drift", "viscosity_drift", "stepped", "refilled"})
+"""Effects over the programme, planted only on recordings with a clock."""
 PLANTED_EACH = 3
 """Effects planted on each recording, one a case: two of the catalogue, one outside it."""
 LEAST_NOISE = 0.003
@@ -71,7 +75,7 @@ def deal(found: Sequence[Recording], out: Path, seed: int) -> list[Path]:
 def cases_of(recording: Recording, seed: int) -> list[Dealt]:
     """All cases of a recording."""
     rng = np.random.default_rng([seed, zlib.crc32(recording.name.encode())])
-    case = read_case(recording.folder)
+    case = _thinned(read_case(recording.folder))
     found = [Dealt(UNTOUCHED, recording, case, _untouched(recording))]
     found += [_hidden(recording, case, one) for one in recording.hidden if one.column in case.columns]
     found += [_paired(recording, case, one) for one in recording.paired if one.values]
@@ -79,6 +83,12 @@ def cases_of(recording: Recording, seed: int) -> list[Dealt]:
         with np.errstate(all="ignore"):
             found += _planted(recording, case, rng)
     return found
+
+
+def _thinned(case: Case) -> Case:
+    count = len(case.columns["run"])
+    rows = np.unique(np.linspace(0, count - 1, min(count, MOST_ROWS)).astype(int))
+    return replace(case, columns={name: column[rows] for name, column in case.columns.items()})
 
 
 def _truth(
@@ -96,13 +106,18 @@ def _truth(
 
 
 def _hidden(recording: Recording, case: Case, one: Concealed) -> Dealt:
+    return Dealt(HIDDEN, recording, _without(case, one), _concealed(recording, one))
+
+
+def _without(case: Case, one: Concealed) -> Case:
+    """The case without a column and its copies; one that its kind requires keeps its median."""
     columns = dict(case.columns)
     for name in (one.column, *one.beside):
         column = columns.pop(name, None)
         if column is not None and name in REQUIRED.get(case.kind, ()):
             usual = np.median(column.astype(float)) if column.dtype != object else column[0]
             columns[name] = np.full(len(column), usual)
-    return Dealt(HIDDEN, recording, replace(case, columns=columns), _concealed(recording, one))
+    return replace(case, columns=columns)
 
 
 def _concealed(recording: Recording, one: Concealed) -> dict[str, Any]:
@@ -117,11 +132,13 @@ def _untouched(recording: Recording) -> dict[str, Any]:
 
 
 def _paired(recording: Recording, case: Case, one: Concealed) -> Dealt:
-    groups = [np.flatnonzero(case.columns[one.column].astype(str) == str(value)) for value in one.values]
+    column = case.columns[one.column]
+    kind = str if column.dtype == object else float
+    groups = [np.flatnonzero(column.astype(kind) == kind(value)) for value in one.values]
     if not all(len(rows) for rows in groups):
         raise InputError("names a group without rows", where=f"{recording.folder}: paired", value=list(one.values))
     rows = np.concatenate(groups)
-    columns = {name: column[rows] for name, column in case.columns.items() if name not in (one.column, *one.beside)}
+    columns = {name: values[rows] for name, values in _without(case, one).columns.items()}
     columns["run"] = np.arange(1, len(rows) + 1)
     if "time_s" in columns:
         columns["time_s"] = _in_a_row([case.columns["time_s"][group].astype(float) for group in groups])
@@ -142,15 +159,17 @@ def _planted(recording: Recording, case: Case, rng: np.random.Generator) -> list
     rig = background(case, rng)
     readings = rig.model(np.zeros(len(rig.names)), ())
     sd = noise_of(case, readings)
-    pool = [form for form in rig.forms if form.rarity > 0 and form.id not in recording.acts]
+    barred = recording.acts | (frozenset() if {"time_s", "sequence"} & set(case.columns) else OVER_TIME)
+    pool = [form for form in rig.forms if form.rarity > 0 and form.id not in barred]
+    outside = [form for form in rig.outside if form.id not in barred]
     ids = sorted({form.id for form in pool})
-    chosen = [str(name) for name in rng.permutation(ids)]
+    chosen = [str(name) for name in (*rng.permutation(ids), *rng.permutation(sorted({form.id for form in outside})))]
     found: list[Dealt] = []
-    for name in (*chosen, *sorted({form.id for form in rig.outside})):
+    for name in chosen:
         named = name in ids
         if sum(one.truth["named"] == named for one in found) >= (PLANTED_EACH - 1 if named else 1):
             continue
-        forms = [form for form in (pool if named else rig.outside) if form.id == name]
+        forms = [form for form in (pool if named else outside) if form.id == name]
         dealt = _with(recording, case, rig, forms[int(rng.integers(len(forms)))], readings, sd, rng)
         found += [dealt] if dealt else []
     return found

@@ -60,7 +60,12 @@ class Recording:
 
 
 def recordings(folder: Path) -> list[Recording]:
-    """Recordings of a folder in the order of their names; those without readings are left out."""
+    """Recordings of a folder that have readings, in the order of their names."""
+    return [one for one in described(folder) if (one.folder / "recordings.csv").exists()]
+
+
+def described(folder: Path) -> list[Recording]:
+    """Recordings of a folder in the order of their names, with or without readings."""
     if not (folder / SPLIT).exists():
         raise InputError(f"has no {SPLIT}, which names the sources of the test", where=str(folder))
     test = frozenset(tomllib.loads((folder / SPLIT).read_text(encoding="utf-8"))["test"])
@@ -68,7 +73,7 @@ def recordings(folder: Path) -> list[Recording]:
     unknown = test - {one.source for one in found}
     if unknown:
         raise InputError("names no source of this folder", where=f"{folder / SPLIT}: test", value=sorted(unknown)[0])
-    return [one for one in found if (one.folder / "recordings.csv").exists()]
+    return found
 
 
 def read_recording(folder: Path, test: frozenset[str] = frozenset()) -> Recording:
