@@ -23,6 +23,7 @@ prove: .venv/dev
 	$(if $(QUICK),,OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto -m long)
 	$(BIN)/mixedlub prove --out out/prove $(if $(QUICK),--quick)
 	$(BIN)/mixedlub prove --rigs --out out/prove_rigs $(if $(QUICK),--quick)
+	$(if $(QUICK),,$(BIN)/mixedlub prove --real benchmarks/recordings --out out/prove_real)
 
 check: lint types examples
 
