@@ -75,7 +75,7 @@ class Results:
     >>> results.to_pandas()["torque_Nm"].tolist(), results["power_loss"].shape
     ([50.0, 150.0], (1, 1, 2, 1))
     >>> [one.code for one in results.findings]
-    ['oil_typical']
+    ['oil_typical', 'boundary_friction_assumed']
     """
 
     study: Study
