@@ -6,7 +6,7 @@ generator's forms act on them through its own chain.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -101,7 +101,7 @@ def _film(case: Case, readings: np.ndarray, rng: np.random.Generator) -> Rig:
     return films.read_by(rng, replace(_rig(case, ("level", "exponent"), model, (), ()), columns=_filled(case)), False)
 
 
-def _filled(case: Case) -> Mapping[str, np.ndarray]:
+def _filled(case: Case) -> dict[str, np.ndarray]:
     count = len(case.columns["run"])
     return {
         **case.columns,
