@@ -169,8 +169,6 @@ def deliver(result: Result, to: Delivery, *, page: Page | None = None, written: 
 
     ``written``: last line for the user. ``drawings``: its end if all was drawn.
     """
-    from mixedlub.importers.case_writer import write_case
-
     how, folder = to.how, to.folder
     for text in result.notes:
         note(text)
@@ -182,6 +180,8 @@ def deliver(result: Result, to: Delivery, *, page: Page | None = None, written: 
         _write_tables(result, how, aside)
         fill(result.files, aside)
         if result.case is not None:
+            from mixedlub.importers.case_writer import write_case
+
             write_case(aside / CASE, result.case.system, result.case.columns, attachments=result.case.attachments)
     clear_parts(folder)
     tables_written()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import KDTree
 
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
@@ -70,6 +69,8 @@ def misread(case: Case, rows: Table, y: np.ndarray, forward: Forward, reported: 
 
 def far_from_neighbours(forward: Forward, y: np.ndarray, base: np.ndarray) -> np.ndarray:
     """Readings very far from those at the nearest conditions, all divided by the base model, by Hampel's identifier."""
+    from scipy.spatial import KDTree
+
     far = np.zeros(y.size, bool)
     known = np.flatnonzero(np.abs(base) > 0)
     if known.size <= NEIGHBOURS:

@@ -8,7 +8,6 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from scipy.stats import rankdata
 
 from mixedlub.importers.answer_keys import COLUMNS
 from mixedlub.importers.base import Answers, Question
@@ -82,6 +81,8 @@ def _decides(header: str, cells: Sequence[str], conditions: Collection[np.ndarra
 
 
 def _rank_correlation(one: np.ndarray, other: np.ndarray) -> float:
+    from scipy.stats import rankdata
+
     known = np.isfinite(one) & np.isfinite(other)
     first, second = rankdata(one[known]), rankdata(other[known])
     if known.sum() < FEWEST or np.ptp(first) == 0.0 or np.ptp(second) == 0.0:
