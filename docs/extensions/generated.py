@@ -61,8 +61,8 @@ def pages() -> dict[str, str]:
 
 def pieces() -> dict[str, str]:
     """Markdown by name that pages include."""
-    files = ("score.txt", "score_rigs.txt", "score_poor.txt", "score_real.txt")
-    battery, rigs, poor, real = ((scores.FOLDER / name).read_text(encoding="utf-8") for name in files)
+    files = ("score.txt", "score_rigs.txt", "score_poor.txt")
+    battery, rigs, poor = ((scores.FOLDER / name).read_text(encoding="utf-8") for name in files)
     gears, others, flawed = scores.scores(battery), scores.scores(rigs), scores.scores(poor)
     return {
         "score_gears": scores.all_rows(gears[scores.TOOL]),
@@ -74,9 +74,7 @@ def pieces() -> dict[str, str]:
         "score_poor": scores.all_rows(flawed[scores.TOOL]),
         "missed_poor": scores.missed(flawed[scores.TOOL]),
         "by_flaw": scores.counts(poor, "by flaw"),
-        "score_real": scores.all_rows(scores.scores(real)[scores.TOOL]),
-        "missed_real": real_recordings.misses(real),
-        "recordings": real_recordings.of_sources(),
+        **real_recordings.pieces(),
         "study_keys": _study_keys(),
         "study_columns": _study_columns(),
         **{f"{name}_columns": _columns(module, given) for name, (module, given) in RESULTS.items()},

@@ -28,7 +28,7 @@ from mixedlub.validation.planted import FORMS
 from mixedlub.validation.rig import Rig
 from mixedlub.validation.rigs import CLASSES, KINDS, Family, Partners
 from mixedlub.validation.sample_case import FEW, HEAVY, LASTING, MIS_SET, SD_ESTIMATED, Order
-from mixedlub.validation.score import FIGURES, Figure, at_least
+from mixedlub.validation.score import FIGURES, Figure, Measured, at_least
 from mixedlub.validation.worlds.figures import WORLD_FIGURES
 from profiles.errors import InputError
 
@@ -121,7 +121,7 @@ def _few_tied(truth: Truth, answer: Answer) -> float:
     return float(len(answer.tied) <= 3)
 
 
-POOR_FIGURES: tuple[Figure, ...] = (
+POOR_FIGURES: tuple[Measured, ...] = (
     *FIGURES,
     Figure("three", "three effects named, or in one tie", _triple_case, together, at_least(0.6), "share"),
     Figure("two_of_three", "  two of them named", _triple_case, _two_of_three, reduction="share"),

@@ -92,6 +92,23 @@ def answer_all(diagnose: Diagnose, cases: Sequence[Path], out: Path, jobs: int, 
             progress(name, done + 1, len(cases))
 
 
+def answered(diagnose: Diagnose, sealed: Sequence[Path], out: Path, jobs: int, progress: Progress) -> list[Path]:
+    """Have copies of the sealed cases answered into ``answers``, and return these copies."""
+    (out / "cases").mkdir(parents=True, exist_ok=True)
+    cases = [unsealed(case, out / "cases") for case in sealed]
+    answer_all(Steady(diagnose), cases, out / "answers", jobs, "diagnose", progress)
+    return cases
+
+
+def failure(out: Path, case: str) -> tuple[str, str]:
+    """File of a breakdown or refusal on a case and its last line; both empty if the case was answered."""
+    for name in (BROKEN, REFUSED):
+        file = out / "answers" / case / name
+        if file.exists():
+            return name, file.read_text(encoding="utf-8").strip().splitlines()[-1].replace(f"{out}/", "")
+    return "", ""
+
+
 def validate(
     out: Path,
     diagnose: Diagnose,
@@ -118,9 +135,7 @@ def validate(
         progress("deal", done, total)
 
     sealed = generate(out / "sealed", seed, cases, kinds, jobs, deal, dealt)
-    (out / "cases").mkdir(exist_ok=True)
-    open_cases = [unsealed(case, out / "cases") for case in sealed]
-    answer_all(Steady(diagnose), open_cases, out / "answers", jobs, "diagnose", progress)
+    open_cases = answered(diagnose, sealed, out, jobs, progress)
     rivals = {name: out / "baselines" / name.replace(" ", "_") for name in (*BASELINES, CEILING) if baselines}
     for name, answers in rivals.items():
         answer_all({**BASELINES, CEILING: oracle}[name], open_cases, answers, jobs, name, progress)
@@ -133,14 +148,13 @@ def _collected(out: Path, truths: Sequence[Truth]) -> tuple[dict[str, list[Pair]
     pairs: dict[str, list[Pair]] = {kind: [] for kind in KINDS if kind in dealt}
     failed: dict[str, list[str]] = {BROKEN: [], REFUSED: []}
     for truth in truths:
-        answered = out / "answers" / truth.case
-        for name, lines in failed.items():
-            if (answered / name).exists():
-                last = (answered / name).read_text(encoding="utf-8").strip().splitlines()[-1].replace(f"{out}/", "")
-                lines.append(f"{truth.case} {truth.kind:16s} {truth.group:11s}  {'+'.join(truth.effects)} -> {last}")
-        if not (answered / REFUSED).exists():
-            broken = (answered / BROKEN).exists()
-            pairs[truth.kind].append((truth, silent(truth) if broken else read_answer(answered)))
+        kept, last = failure(out, truth.case)
+        if kept:
+            line = f"{truth.case} {truth.kind:16s} {truth.group:11s}  {'+'.join(truth.effects)} -> {last}"
+            failed[kept].append(line)
+        if kept != REFUSED:
+            answer = silent(truth) if kept else read_answer(out / "answers" / truth.case)
+            pairs[truth.kind].append((truth, answer))
     return pairs, failed
 
 

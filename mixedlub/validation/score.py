@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
 from itertools import pairwise
 from pathlib import Path
+from typing import Generic, TypeVar
 
 import numpy as np
 
@@ -134,8 +135,13 @@ def _ratio(hits: Sequence[float]) -> float:
     return float(np.mean(hits)) if len(hits) else float("nan")
 
 
+T = TypeVar("T")
+A = TypeVar("A")
+"""Truth (T) and answer (A) of the cases of a battery."""
+
+
 @dataclass(frozen=True)
-class Figure:
+class Figure(Generic[T, A]):
     """Definition of a row: counted cases, measure of a case, reduction over cases.
 
     A ``share`` counts yes-or-no outcomes: one a case, or ``weight`` of them.
@@ -143,11 +149,25 @@ class Figure:
 
     key: str
     text: str
-    counts: Callable[[Truth, Answer], bool]
-    measure: Callable[[Truth, Answer], float]
+    counts: Callable[[T, A], bool]
+    measure: Callable[[T, A], float]
     goal: tuple[float, float] | None = None
     reduction: str = "mean"
-    weight: Callable[[Truth], int] | None = None
+    weight: Callable[[T], int] | None = None
+
+    def row(self, pairs: Sequence[tuple[T, A]]) -> Row:
+        """The row of answered cases."""
+        counted = [pair for pair in pairs if self.counts(*pair)]
+        values = np.array([float(self.measure(*pair)) for pair in counted])
+        weights = np.array([1.0 if self.weight is None else float(self.weight(truth)) for truth, _ in counted])
+        finite = np.isfinite(values)
+        values, weights = values[finite], weights[finite]
+        value, span = reduced(values, weights, self.reduction), interval(values, weights, self.reduction)
+        return Row(self.key, self.text, value, int(weights.sum()), *span, self.goal)
+
+
+Measured = Figure[Truth, Answer]
+"""Figure of a battery of simulated rigs."""
 
 
 def _any(truth: Truth, answer: Answer) -> bool:
@@ -203,7 +223,7 @@ def _glaring(truth: Truth, answer: Answer) -> bool:
 
 ONE, SOME = ("single", "measurement"), ("single", "measurement", "pair")
 HIDDEN = (*SOME, "unknown")
-FIGURES: tuple[Figure, ...] = (
+FIGURES: tuple[Measured, ...] = (
     Figure("right", "right verdict, one effect, identifiable", _clear(*ONE), right, at_least(0.95), reduction="share"),
     Figure("right_physics", "  of these physics", _clear("single"), right, reduction="share"),
     Figure(
@@ -276,15 +296,11 @@ HALVES = (("right_within", "right_beyond"), ("tied_within", "tied_beyond"))
 """Figures shown only if both halves have counts."""
 
 
-def _once(truth: Truth) -> int:
-    return 1
-
-
 def score(
     pairs: Sequence[Pair],
     tool: str = "mixedlub diagnose",
     ids: Sequence[str] = tuple(NAMED),
-    figures: Sequence[Figure] = FIGURES,
+    figures: Sequence[Measured] = FIGURES,
 ) -> Score:
     """All figures of a battery answered by a tool, with the project's goals.
 
@@ -292,15 +308,7 @@ def score(
     """
     if not pairs:
         raise InputError("there is no answered case to score", where=tool)
-    rows = []
-    for figure in figures:
-        values = np.array([float(figure.measure(*pair)) for pair in pairs if figure.counts(*pair)])
-        weight = figure.weight or _once
-        weights = np.array([float(weight(truth)) for truth, answer in pairs if figure.counts(truth, answer)])
-        finite = np.isfinite(values)
-        values, weights = values[finite], weights[finite]
-        value, span = reduced(values, weights, figure.reduction), interval(values, weights, figure.reduction)
-        rows.append(Row(figure.key, figure.text, value, int(weights.sum()), *span, figure.goal))
+    rows = [figure.row(pairs) for figure in figures]
     one_half_only = {name for halves in HALVES for name in halves if not all(r.count for r in rows if r.key in halves)}
     rows = [row for row in rows if row.key not in one_half_only]
     rows += _probability_rows(pairs, ids)

@@ -1,5 +1,6 @@
 """Measured traces for the tests, read by the plainest means, and Gaussian traces of known spectrum."""
 
+import json
 import re
 from collections.abc import Callable
 from functools import cache
@@ -8,6 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mixedlub.cli import main
+from mixedlub.rig.rig import Rig
+from mixedlub.schema.system_file import RigFile
 from profiles import Profile
 
 
@@ -81,3 +85,19 @@ def plateau_trace(gaussian_trace: Callable[..., Profile]) -> Callable[..., Profi
         return Profile(np.minimum(fine, deep + lift), 0.5e-6, name="plateau")
 
     return make
+
+
+def rig_of(folder, **surfaces):
+    return Rig(RigFile(surfaces=surfaces), folder)
+
+
+@pytest.fixture
+def evaluated(tmp_path):
+    """The row of one file, through the command line."""
+
+    def run(file, *options):
+        assert main(["profile", str(file), "--no-figures", "--replace", "--out", str(tmp_path), *options]) == 0
+        (row,) = json.loads((tmp_path / "profile.json").read_text())
+        return row
+
+    return run

@@ -8,11 +8,10 @@ import pytest
 
 import profiles
 from mixedlub.cli import main
-from mixedlub.rig.rig import Rig
 from mixedlub.schema.findings import collected
-from mixedlub.schema.system_file import RigFile
 from tests.profiles.test_manifest import FILES, SDF, X3P
 from tests.profiles.test_shipped import TABLE_1
+from tests.roughness.conftest import rig_of
 
 TRACES = Path(profiles.__file__).parent / "traces"
 
@@ -29,22 +28,6 @@ INSTRUMENT = {
     "Rku": (2.463, 1e-3),
     "Rdq": (0.157, 1e-3),
 }
-
-
-def rig_of(folder, **surfaces):
-    return Rig(RigFile(surfaces=surfaces), folder)
-
-
-@pytest.fixture
-def evaluated(tmp_path):
-    """The row of one file, through the command line."""
-
-    def run(file, *options):
-        assert main(["profile", str(file), "--no-figures", "--replace", "--out", str(tmp_path), *options]) == 0
-        (row,) = json.loads((tmp_path / "profile.json").read_text())
-        return row
-
-    return run
 
 
 @pytest.mark.parametrize(

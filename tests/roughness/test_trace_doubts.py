@@ -1,32 +1,12 @@
 """Doubts about traces, in `mixedlub profile` and in a study."""
 
-import json
-
 import numpy as np
 import pytest
 
 import profiles
-from mixedlub.cli import main
 from mixedlub.rig.plausibility import implausible
-from mixedlub.rig.rig import Rig
 from mixedlub.schema.findings import Severity, collected
-from mixedlub.schema.system_file import RigFile
-
-
-def rig_of(folder, **surfaces):
-    return Rig(RigFile(surfaces=surfaces), folder)
-
-
-@pytest.fixture
-def evaluated(tmp_path):
-    """The row of one file, through the command line."""
-
-    def run(file, *options):
-        assert main(["profile", str(file), "--no-figures", "--replace", "--out", str(tmp_path), *options]) == 0
-        (row,) = json.loads((tmp_path / "profile.json").read_text())
-        return row
-
-    return run
+from tests.roughness.conftest import rig_of
 
 
 def test_heights_in_another_unit_than_their_heading_are_doubted_by_command_and_study(tmp_path, evaluated, capsys):

@@ -86,7 +86,8 @@ def _drive(case: Case, readings: np.ndarray, rng: np.random.Generator) -> Rig:
 
 def _film(case: Case, readings: np.ndarray, rng: np.random.Generator) -> Rig:
     settings: dict[str, Any] = {**case.settings, "lubricant": draw_oil(rng) | case.settings.get("lubricant", {})}
-    inputs = ball.inputs_of(settings, _filled(case), np.ones(3) * 1e-12)
+    columns = _filled(case)
+    inputs = ball.inputs_of(settings, columns, np.ones(3) * 1e-12)
     place = np.log(inputs.speed_1 + inputs.speed_2)
     place = (place - place.mean()) / max(float(np.ptp(place)), 1e-9)
     now = start(inputs, Calibration())
@@ -98,7 +99,7 @@ def _film(case: Case, readings: np.ndarray, rng: np.random.Generator) -> Rig:
 
         return np.asarray(play(ball.film_chain(measured), now, acts).recorded)
 
-    return films.read_by(rng, replace(_rig(case, ("level", "exponent"), model, (), ()), columns=_filled(case)), False)
+    return films.read_by(rng, replace(_rig(case, ("level", "exponent"), model, (), ()), columns=columns), False)
 
 
 def _filled(case: Case) -> dict[str, np.ndarray]:

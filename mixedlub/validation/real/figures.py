@@ -14,7 +14,7 @@ from mixedlub.validation.measures import ANSWERS_WITHOUT_EFFECT
 from mixedlub.validation.planted import MEASUREMENT
 from mixedlub.validation.real.deal import HIDDEN, PAIRED, PLANTED, UNTOUCHED
 from mixedlub.validation.rig import LAWS
-from mixedlub.validation.score import at_least, at_most
+from mixedlub.validation.score import Figure, at_least, at_most
 
 CLAIM = 0.9
 """Least probability of a confident claim."""
@@ -161,18 +161,6 @@ def _none_or_tied(truth: Truth, found: Located) -> bool:
     return any(one == {"none"} or one <= LAWS for one in (found.answer.verdict, *found.answer.tied))
 
 
-@dataclass(frozen=True)
-class Figure:
-    """Definition of a row: counted cases, measure, goal, reduction."""
-
-    key: str
-    text: str
-    counts: Callable[[Truth, Located], bool]
-    measure: Callable[[Truth, Located], float]
-    goal: tuple[float, float] | None = None
-    reduction: str = "share"
-
-
 def _of(label: str, **wanted: object) -> Callable[[Truth, Located], bool]:
     return lambda t, a: t.label == label and all(getattr(t, name) == value for name, value in wanted.items())
 
@@ -197,23 +185,33 @@ def _any(truth: Truth, found: Located) -> bool:
     return True
 
 
-FIGURES = (
-    Figure("planted", "planted effects named or tied, if identifiable", _of(PLANTED, identifiable=True, named=True),
+def _share(
+    key: str,
+    text: str,
+    counts: Callable[[Truth, Located], bool],
+    measure: Callable[[Truth, Located], bool],
+    goal: tuple[float, float] | None = None,
+) -> Figure[Truth, Located]:
+    return Figure(key, text, counts, measure, goal, "share")
+
+
+FIGURES: tuple[Figure[Truth, Located], ...] = (
+    _share("planted", "planted effects named or tied, if identifiable", _of(PLANTED, identifiable=True, named=True),
            named, at_least(0.85)),
-    Figure("planted_all", "  of all planted effects of the catalogue", _of(PLANTED, named=True), named),
-    Figure("planted_clean", "  and nothing else invented", _of(PLANTED, identifiable=True, named=True), right),
-    Figure("outside", "planted outside the catalogue: unknown", _of(PLANTED, named=False), right),
-    Figure("hidden_located", "hidden channels located", lambda t, a: t.label == HIDDEN and bool(t.where), located,
+    _share("planted_all", "  of all planted effects of the catalogue", _of(PLANTED, named=True), named),
+    _share("planted_clean", "  and nothing else invented", _of(PLANTED, identifiable=True, named=True), right),
+    _share("outside", "planted outside the catalogue: unknown", _of(PLANTED, named=False), right),
+    _share("hidden_located", "hidden channels located", lambda t, a: t.label == HIDDEN and bool(t.where), located,
            at_least(0.8)),
-    Figure("hidden_right", "hidden channels named or unknown", _of(HIDDEN, lost=True), right),
-    Figure("nothing_lost", "hidden or paired with nothing lost: as before", _nothing_lost, right),
-    Figure("hidden_false", "hidden channels with a false claim at 0.9", _of(HIDDEN), falsely_claimed, at_most(0.04)),
-    Figure("paired", "known differences named or tied", _of(PAIRED, lost=True), right, at_least(0.75)),
-    Figure("untouched", "nothing missing: none or tied with none", _nothing_acts, _none_or_tied, at_least(0.9)),
-    Figure("documented", "documented causes named or tied", _something_acts, named),
-    Figure("claims_false", "any case with a false claim at 0.9", _any, falsely_claimed),
-    Figure("faults", "documented faults found as faults", lambda t, a: bool(t.faults), faults_found, at_least(0.85)),
-    Figure("helps", "named effects that predict withheld readings", _has_effect, helps, at_least(1.0)),
+    _share("hidden_right", "hidden channels named or unknown", _of(HIDDEN, lost=True), right),
+    _share("nothing_lost", "hidden or paired with nothing lost: as before", _nothing_lost, right),
+    _share("hidden_false", "hidden channels with a false claim at 0.9", _of(HIDDEN), falsely_claimed, at_most(0.04)),
+    _share("paired", "known differences named or tied", _of(PAIRED, lost=True), right, at_least(0.75)),
+    _share("untouched", "nothing missing: none or tied with none", _nothing_acts, _none_or_tied, at_least(0.9)),
+    _share("documented", "documented causes named or tied", _something_acts, named),
+    _share("claims_false", "any case with a false claim at 0.9", _any, falsely_claimed),
+    _share("faults", "documented faults found as faults", lambda t, a: bool(t.faults), faults_found, at_least(0.85)),
+    _share("helps", "named effects that predict withheld readings", _has_effect, helps, at_least(1.0)),
     Figure("coverage", "coverage of the 90 % intervals, withheld readings", _any, coverage, (0.85, 0.95), "mean"),
     Figure("seconds", "seconds a case, median", _any, lambda t, a: a.answer.seconds, at_most(10.0), "median"),
     Figure("slowest", "seconds a case, worst", _any, lambda t, a: a.answer.seconds, at_most(60.0), "max"),

@@ -7,14 +7,11 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 
-import numpy as np
-
-from mixedlub.validation.intervals import interval, reduced
 from mixedlub.validation.real.deal import CLASSES, deal
-from mixedlub.validation.real.figures import FIGURES, Figure, Located, Pair, Truth, read_located, read_truth, right
+from mixedlub.validation.real.figures import FIGURES, Located, Pair, Truth, read_located, read_truth, right
 from mixedlub.validation.real.source import SPLITS, Recording, licences, recordings
-from mixedlub.validation.run import BROKEN, REFUSED, Diagnose, Progress, Steady, answer_all, quiet, unsealed
-from mixedlub.validation.score import Row, Score, finite
+from mixedlub.validation.run import Diagnose, Progress, answered, failure, quiet
+from mixedlub.validation.score import Score, finite
 from profiles.errors import InputError
 
 TOOL = "mixedlub diagnose"
@@ -28,9 +25,7 @@ def validate(
         raise InputError(f"must be among {', '.join(SPLITS)}", where="--split", value=split)
     found = [one for one in recordings(folder) if one.split == split]
     sealed = deal(found, out / "sealed", seed)
-    (out / "cases").mkdir(parents=True, exist_ok=True)
-    given = [unsealed(case, out / "cases") for case in sealed]
-    answer_all(Steady(diagnose), given, out / "answers", jobs, "diagnose", progress)
+    answered(diagnose, sealed, out, jobs, progress)
     return judge(out, sealed, found)
 
 
@@ -42,16 +37,14 @@ def judge(out: Path, sealed: Sequence[Path], found: Sequence[Recording]) -> Scor
     pairs: list[Pair] = []
     failed: list[str] = []
     for truth in map(read_truth, sealed):
-        place = out / "answers" / truth.case
-        ill = next((name for name in (BROKEN, REFUSED) if (place / name).exists()), "")
-        if ill:
-            last = (place / ill).read_text(encoding="utf-8").strip().splitlines()[-1].replace(f"{out}/", "")
-            failed.append(f"{_told(truth)}  {ill.removesuffix('.txt')}: {last}")
+        kept, last = failure(out, truth.case)
+        if kept:
+            failed.append(f"{_told(truth)}  {kept.removesuffix('.txt')}: {last}")
         else:
-            pairs.append((truth, read_located(place)))
+            pairs.append((truth, read_located(out / "answers" / truth.case)))
     if not pairs:
         raise InputError("there is no answered case to score", where=str(out))
-    score = Score(TOOL, tuple(_row(figure, pairs) for figure in FIGURES), (), (), {})
+    score = Score(TOOL, tuple(figure.row(pairs) for figure in FIGURES), (), (), {})
     text = [score.text(), _by_kind(pairs)]
     if found[0].split == SPLITS[0]:
         text += ["answers that are not right", *map(_wrong, (p for p in pairs if not right(*p))), ""]
@@ -62,14 +55,6 @@ def judge(out: Path, sealed: Sequence[Path], found: Sequence[Recording]) -> Scor
     record = {"tool": TOOL, "split": found[0].split, "cases": len(pairs), "rows": finite(rows)}
     (out / "score.json").write_text(json.dumps(record, indent=1, allow_nan=False), encoding="utf-8")
     return score
-
-
-def _row(figure: Figure, pairs: Sequence[Pair]) -> Row:
-    values = np.array([float(figure.measure(*pair)) for pair in pairs if figure.counts(*pair)])
-    values = values[np.isfinite(values)]
-    ones = np.ones_like(values)
-    value, span = reduced(values, ones, figure.reduction), interval(values, ones, figure.reduction)
-    return Row(figure.key, figure.text, value, len(values), *span, figure.goal)
 
 
 def _by_kind(pairs: Sequence[Pair]) -> str:

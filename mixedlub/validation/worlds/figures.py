@@ -13,7 +13,7 @@ from mixedlub.validation.measures import (
     tied,
     unknown_suspected,
 )
-from mixedlub.validation.score import FIGURES, Figure, at_least, at_most
+from mixedlub.validation.score import FIGURES, Figure, Measured, at_least, at_most
 from mixedlub.validation.worlds.catalogue import TOGETHER
 
 Counts = Callable[[Truth, Answer], bool]
@@ -38,11 +38,13 @@ def _any(truth: Truth, answer: Answer) -> bool:
     return True
 
 
-def _share(key: str, text: str, counts: Counts, measure: Callable[[Truth, Answer], float], goal: Goal = None) -> Figure:
+def _share(
+    key: str, text: str, counts: Counts, measure: Callable[[Truth, Answer], float], goal: Goal = None
+) -> Measured:
     return Figure(key, text, counts, measure, goal, "share")
 
 
-def _by_law(key: str, text: str, laws: Callable[[Truth], frozenset[str]], goal: Goal) -> Figure:
+def _by_law(key: str, text: str, laws: Callable[[Truth], frozenset[str]], goal: Goal) -> Measured:
     """Figure that counts the laws of a case separately."""
     return Figure(
         key,
@@ -78,8 +80,8 @@ _LAWS = (
 )  # fmt: skip
 
 
-def _as_ever(keys: tuple[str, ...]) -> tuple[Figure, ...]:
+def _as_ever(keys: tuple[str, ...]) -> tuple[Measured, ...]:
     return tuple(figure for key in keys for figure in FIGURES if figure.key == key)
 
 
-WORLD_FIGURES: tuple[Figure, ...] = (*_LAWS, *_as_ever(AS_EVER), *_as_ever(TIMES))
+WORLD_FIGURES: tuple[Measured, ...] = (*_LAWS, *_as_ever(AS_EVER), *_as_ever(TIMES))
