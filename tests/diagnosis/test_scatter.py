@@ -191,12 +191,21 @@ def test_noise_of_very_many_readings_is_estimated_though_a_share_of_them_is_look
     assert d.test.detected
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(("scatter", "doubted"), [(0.01, False), (0.25, True)])
-def test_estimated_noise_that_no_rig_has_is_doubted(tmp_path: Path, scatter: float, doubted: bool) -> None:
-    friction = 0.1 * (1.0 + scatter * np.random.default_rng(4).standard_normal(40))
+@pytest.mark.parametrize(
+    ("scatter", "code", "verdict"),
+    [
+        pytest.param(0.01, "noise_value_estimated", "none", marks=pytest.mark.long),
+        pytest.param(0.15, "noise_estimate_large", "none", marks=pytest.mark.long),
+        (0.35, "scatter_unexplained", "unknown"),
+    ],
+)
+def test_estimated_noise_that_no_rig_has_conceals_something(
+    tmp_path: Path, scatter: float, code: str, verdict: str
+) -> None:
+    friction = 0.1 * np.exp(scatter * np.random.default_rng(4).standard_normal(40))
     columns = {"time_s": np.arange(40.0), "friction_coefficient": friction}
     system = {"kind": "friction_history", "recording": {"quantity": "friction_coefficient"}}
     d = diagnose_case(write_case(tmp_path / "case", system, columns))
-    assert ("noise_estimate_large" in codes(d.warnings)) == doubted
-    assert ("noise_value_estimated" in codes(d.warnings)) != doubted
+    told = {"noise_value_estimated", "noise_estimate_large", "scatter_unexplained"}
+    assert told & set(codes(d.warnings)) == {code}
+    assert d.posterior.verdict.ids == (verdict,)

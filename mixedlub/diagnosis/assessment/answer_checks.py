@@ -7,6 +7,7 @@ from math import comb
 import numpy as np
 
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut
+from mixedlub.diagnosis.assessment.mismatch_test import noise_share
 from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.labels import amount, words_of
@@ -14,6 +15,7 @@ from mixedlub.diagnosis.search.noise_inflation import NoiseInflation, best_infla
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.assessment import (
     LARGE_NOISE,
+    LARGEST_SCATTER,
     LEAST_STREAK,
     MANY_OUTLIERS,
     MOST_OF_LEVEL,
@@ -79,9 +81,15 @@ def _size_notes(search: Search, stated: bool, inflation: NoiseInflation) -> list
         parts = [f"{100.0 * noise.relative:.2g} % of it"] if noise.relative else []
         parts += [f"{noise.absolute:.2g} {unit}".rstrip()] if noise.absolute else []
         estimate = f"the noise of a reading was estimated as {' and '.join(parts)}"
-        sd = search.problem.single_sd * search.problem.d_inverse(search.problem.y)
-        if np.median(sd) <= LARGE_NOISE * np.median(np.abs(search.problem.inverse(search.problem.y))):
+        share = noise_share(search.problem)
+        if share <= LARGE_NOISE:
             return [finding("noise_value_estimated", estimate)]
+        if share > LARGEST_SCATTER:
+            text = (
+                f"{estimate}, which no instrument has: something that differs between the readings is not recorded, "
+                "such as a specimen, a mixture or a condition"
+            )
+            return [finding("scatter_unexplained", text)]
         text = f"{estimate}, more than rigs have: rows may differ in kind, or the noise contains what is missing"
         return [finding("noise_estimate_large", text)]
     if stated and best_inflation(search)[0] > INFLATION_GAIN:

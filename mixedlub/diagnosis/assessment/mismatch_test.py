@@ -11,12 +11,14 @@ from mixedlub.diagnosis.discrepancy.modulated import READING
 from mixedlub.diagnosis.discrepancy.smooth import DiscrepancyForm
 from mixedlub.diagnosis.inference.likelihood import outlier_chance
 from mixedlub.diagnosis.inference.map_fit import whitening
+from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.noise_selection import NoiseSearch
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.assessment import (
     ALTERNATIVE_SIZES,
     BAYES_FACTOR_MARGIN,
     DRAWS,
+    LARGEST_SCATTER,
     SMALLEST_P,
     SMOOTH_ALTERNATIVES,
     STATED_NOISE_SCALES,
@@ -165,11 +167,15 @@ def mismatch_against_null(result: NoiseSearch, level: float) -> tuple[Search, Mi
     test = mismatch_test(search, level)
     scales = UNSTATED_NOISE_SCALES
     if result.stated:
-        test = beyond_noise(search, result.noise_factor, test)
+        test = beyond_noise(search, result.noise_factor / MOST_INFLATION, test)
         null_search = result.null_search() if test.detected else search
         if null_search is search:
             return search, test
         scales = STATED_NOISE_SCALES
+    else:
+        test = beyond_noise(search, noise_share(search.problem) / LARGEST_SCATTER, test)
+        if test.unexplained_scatter:
+            return search, test
     null_test = mismatch_test(null_search, level, scales=scales)
     if null_test.p_value <= test.p_value:
         return search, test
@@ -178,15 +184,24 @@ def mismatch_against_null(result: NoiseSearch, level: float) -> tuple[Search, Mi
     return search, replace(test, p_value=null_test.p_value, noise_adapted=True)
 
 
-def beyond_noise(search: Search, times: float, test: Mismatch) -> Mismatch:
-    """Mismatch test that counts scatter beyond any plausible inflation of the stated noise as a mismatch."""
+def beyond_noise(search: Search, excess: float, test: Mismatch) -> Mismatch:
+    """Mismatch test that counts scatter beyond any plausible noise as a mismatch.
+
+    ``excess`` is the noise of the search over the largest plausible noise.
+    """
     from scipy.special import chdtrc
 
-    if times <= MOST_INFLATION:
+    if excess <= 1.0:
         return test
     counted = outlier_chance(search.null_fit.residual) <= LIKELY
     if not counted.any():
         return replace(test, p_value=SMALLEST_P, detected=True, unexplained_scatter=True)
-    chi2 = float(np.sum(search.null_fit.residual[counted] ** 2)) * (times / MOST_INFLATION) ** 2
+    chi2 = float(np.sum(search.null_fit.residual[counted] ** 2)) * excess**2
     p = min(max(float(chdtrc(int(counted.sum()), chi2)), SMALLEST_P), test.p_value)
     return replace(test, p_value=p, detected=bool(p <= test.level), unexplained_scatter=True)
+
+
+def noise_share(problem: Problem) -> float:
+    """Typical noise of a reading over the typical reading."""
+    sd = problem.single_sd * problem.d_inverse(problem.y)
+    return float(np.median(sd) / np.median(np.abs(problem.inverse(problem.y))))

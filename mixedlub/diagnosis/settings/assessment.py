@@ -148,6 +148,9 @@ POOR_PREDICTION = 3.0
 """Judgement. Error on left-out levels, in sd of a reading, from which the prediction fails: beyond noise."""
 LARGE_NOISE = 0.1
 """Judgement. Share of a reading from which estimated noise is doubted: rigs do better."""
+LARGEST_SCATTER = 0.2
+"""Measured (mixedlub prove --real). Largest share of a reading that is still noise where none is stated: every
+development recording with more scatter than this conceals a specimen, a condition or a mixture."""
 VISIBLE = 3.0
 """Judgement. Change in standard deviations from which an effect is visible: clearly beyond noise."""
 CHANNEL_READINGS = 5
