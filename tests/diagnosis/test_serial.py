@@ -8,6 +8,7 @@ from scipy.signal import lfilter
 
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.explanation import NOTHING
+from mixedlub.diagnosis.search.autocorrelation import batch_means_inflation
 from mixedlub.schema.findings import codes
 
 from ..kinds.conftest import make, system
@@ -27,6 +28,14 @@ def lasting_noise(correlation: float, seed: int) -> np.ndarray:
 def answer(make, friction: np.ndarray) -> Diagnosis:
     columns = {"time_s": TIME, "friction_coefficient": friction}
     return diagnose_case(make(system("friction_history", "friction_coefficient"), columns).folder)
+
+
+@pytest.mark.parametrize("variance", [1.0, 1.5, 2.0])
+@pytest.mark.parametrize(("correlation", "low", "high"), [(0.0, 0.0, 0.1), (0.3, 0.8, 1.0)])
+def test_lack_of_fit_is_no_autocorrelation(variance: float, correlation: float, low: float, high: float) -> None:
+    series = [np.sqrt(variance) * lasting_noise(correlation, seed) for seed in range(200)]
+    fired = np.mean([batch_means_inflation(one, TIME) > 1.0 for one in series])
+    assert low <= fired <= high
 
 
 @pytest.mark.long

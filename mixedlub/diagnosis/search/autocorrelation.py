@@ -60,20 +60,24 @@ def batch_means_inflation(residual: np.ndarray, clock: np.ndarray) -> float:
 
     ``residual`` is standardised. For independent residuals :math:`\sum_n z / \sqrt n` has variance one for batches of
     any length n. For autocorrelated residuals it is larger, and a slow trend is as uncertain as with so many times
-    fewer readings. An excess within two standard errors is chance. Batch means: G. S. Fishman, Principles of Discrete
-    Event Simulation (1978).
+    fewer readings. Single residuals that vary more than noise are a lack of fit, so their variance is the unit then.
+    An excess within two standard errors is chance. Batch means: G. S. Fishman, Principles of Discrete Event Simulation
+    (1978).
 
     >>> noise = np.random.default_rng(1).standard_normal(512)
     >>> batch_means_inflation(noise, np.arange(512.0))
     1.0
     >>> round(batch_means_inflation(np.repeat(noise, 8), np.arange(4096.0)))
     7
+    >>> batch_means_inflation(1.4 * noise, np.arange(512.0))
+    1.0
     """
     ordered = np.clip(residual, -CLIPPED_AT, CLIPPED_AT)[np.argsort(clock, kind="stable")]
+    single = max(float(np.mean(ordered**2)), 1.0)
     largest, length = 1.0, 2
     while (count := ordered.size // length) >= LEAST_BATCHES:
         sums = ordered[: count * length].reshape(count, length).sum(axis=1)
-        inflation = float(np.mean(sums**2)) / length
+        inflation = float(np.mean(sums**2)) / length / single
         if inflation > 1.0 + SIGNIFICANT * np.sqrt(2.0 / count):
             largest = max(largest, inflation)
         length *= 2
