@@ -11,7 +11,7 @@ from mixedlub.diagnosis.explanation import DISCREPANCY, Explanation
 from mixedlub.diagnosis.inference.change_points import change_point_coordinates
 from mixedlub.diagnosis.inference.likelihood import outlier_chance
 from mixedlub.diagnosis.search.search import Search
-from mixedlub.diagnosis.settings.assessment import VALIDATED
+from mixedlub.diagnosis.settings.assessment import MOST_PENALTY, VALIDATED
 from mixedlub.diagnosis.settings.inference import LIKELY
 
 
@@ -19,18 +19,21 @@ def judge(search: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
     """Posterior probabilities, with cross-validation of the verdict and of all tied explanations.
 
     Beyond VALIDATED explanations, the others get the least penalty of these. The discrepancy is compared with the first
-    effects. If even the best of them is overdispersed on left-out levels, the odds between effects are reduced.
+    effects. If even the best of them is overdispersed on left-out levels, the odds between effects are reduced. Each
+    effect of a verdict must predict left-out levels better than the verdict without it.
     """
     levels = LevelsOut.of(search)
     weights = search.log_weights
     names = sorted((key for key in search.scores if key.effects), key=lambda key: -weights[key])
     tried: dict[Explanation, tuple[HeldOut, float]] = {}
     discrepancy_penalty: dict[Explanation, float] = {}
+    unearned: dict[Explanation, float] = {}
     while True:
         penalties = {key: log_odds_penalty for key, (_, log_odds_penalty) in tried.items()}
         if len(tried) >= VALIDATED and all(penalties.values()):
             rest = min(penalties.values())
             penalties = {key: penalties.get(key, rest) for key in names}
+        penalties = {key: penalties.get(key, 0.0) + unearned.get(key, 0.0) for key in {**penalties, **unearned}}
         judged = posterior(search, test, penalties | discrepancy_penalty)
         first = judged.verdict
         # Other levels cannot predict a change point.
@@ -45,10 +48,24 @@ def judge(search: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
             discrepancy_penalty = {DISCREPANCY: against}
             continue
         fresh = [key for key in judged.tied if key not in tried and key.effects]
-        if not fresh or len(tried) >= VALIDATED:
-            key = judged.verdict
-            return judged, (tried.get(key) or _cross_validated(levels, search, key))[0]
-        tried[fresh[0]] = _cross_validated(levels, search, fresh[0])
+        if fresh and len(tried) < VALIDATED:
+            tried[fresh[0]] = _cross_validated(levels, search, fresh[0])
+            continue
+        verdict = judged.verdict
+        kept = (tried.get(verdict) or _cross_validated(levels, search, verdict))[0]
+        if len(verdict.effects) < 2 or verdict in unearned:
+            return judged, kept
+        unearned[verdict] = _unearned(levels, search, verdict, kept)
+
+
+def _unearned(levels: LevelsOut, search: Search, verdict: Explanation, kept: HeldOut) -> float:
+    """Penalty in log odds of several effects that predict left-out levels worse than without one of them."""
+    best = kept.score
+    for name in verdict.effects:
+        part = Explanation.of(*(one for one in verdict.effects if one != name))
+        if part in search.fits and not change_point_coordinates(search.problem, Explanation.of(name)):
+            best = max(best, _cross_validated(levels, search, part)[0].score)
+    return min(best - kept.score, MOST_PENALTY)
 
 
 def _cross_validated(levels: LevelsOut, search: Search, key: Explanation) -> tuple[HeldOut, float]:
