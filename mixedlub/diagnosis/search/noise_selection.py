@@ -19,7 +19,7 @@ from mixedlub.diagnosis.search.noise_inflation import (
     search_estimated_noise,
     search_stated_noise,
 )
-from mixedlub.diagnosis.search.search import Progress, Search, reweighed, search, spread_rows
+from mixedlub.diagnosis.search.search import Progress, Search, continued, search, spread_rows
 from mixedlub.diagnosis.settings.search import MANY
 from mixedlub.recording.conditions import SERIES, coordinates
 from mixedlub.recording.correlated_error import UNCORRELATED, CorrelatedError
@@ -57,14 +57,19 @@ def search_under_noise(case: Case, forward: Forward, exclude: Sequence[str], pro
     """Search all explanations under the stated noise, inflated where residuals demand it, or under estimated noise.
 
     Autocorrelated readings count as fewer; a slow drift is a correlated error that readings share. Autocorrelation is
-    estimated before the drift in a logged series only, which is long enough. Each change of the noise repeats the
+    estimated before the drift in a logged series only, which is long enough. Each change of the noise continues the
     search.
     """
     space = coordinates(forward)
     values = space.values(forward)
 
+    latest: list[Search] = []
+
     def trial(case: Case, n_per_effective: float = 1.0, correlated_error: CorrelatedError = UNCORRELATED) -> Search:
-        return search(Problem.of(case, forward, n_per_effective, correlated_error), space, values, exclude, progress)
+        problem = Problem.of(case, forward, n_per_effective, correlated_error)
+        found = search(problem, space, values, exclude, progress, latest[-1] if latest else None)
+        latest[:] = [found]
+        return found
 
     count = len(rows_of(case))
     few = spread_rows(values, count) if count > MANY else None
@@ -73,8 +78,11 @@ def search_under_noise(case: Case, forward: Forward, exclude: Sequence[str], pro
         problem = Problem.of(case, forward)
         problem = problem if few is None else problem.take(few)
         if near is not None:
-            return reweighed(near, problem)
-        return search(problem, space, values if few is None else [v[few] for v in values], exclude, progress)
+            return continued(near, problem, adding=False)
+        known = latest[-1] if latest else None
+        found = search(problem, space, values if few is None else [v[few] for v in values], exclude, progress, known)
+        latest[:] = [found]
+        return found
 
     stated, inflation, most = is_stated(case), NoiseInflation(), np.inf
     if stated:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
@@ -117,12 +117,23 @@ def search(
     values: list[np.ndarray],
     exclude: Sequence[str] = (),
     progress: Progress = lambda text: None,
+    near: Search | None = None,
 ) -> Search:
-    """Fit and weigh all promising explanations; beyond MANY rows on a subset, and the leaders on all rows."""
+    """Fit and weigh all promising explanations; beyond MANY rows on a subset, and the leaders on all rows.
+
+    A search of the same readings under a ``near`` noise is continued.
+    """
+
+    def every(problem: Problem, values: list[np.ndarray]) -> Search:
+        if near is None:
+            return _search(problem, space, values, exclude, progress)
+        progress("weighing the explanations under another noise")
+        return continued(near.full_screen, problem)
+
     if problem.y.size <= MANY:
-        return _search(problem, space, values, exclude, progress)
+        return every(problem, values)
     rows = spread_rows(values, problem.y.size)
-    screen = _search(problem.subset(rows), space, [v[rows] for v in values], exclude, progress)
+    screen = every(problem.subset(rows), [v[rows] for v in values])
     progress(f"weighing the leaders on all {problem.y.size} readings")
     weights = screen.log_weights
     ranked = sorted(screen.scores, key=lambda m: -weights[m])
@@ -138,24 +149,38 @@ def search(
     )
 
 
-def reweighed(search: Search, problem: Problem) -> Search:
-    """Search reweighed under another noise: near fits are continued, far fits rescaled, and none is added."""
-    best = search.best_named
-    problem = problem.with_sd(best.prediction, search.null_fit.prediction)
-    scale = search.problem.sd / problem.sd
-    moved = {m: f.in_sigmas(scale, f.evidence + _counted_anew(f.residual, scale)) for m, f in search.fits.items()}
-    then, now = (max(f.evidence for f in fits.values()) - HOPELESS_BEHIND for fits in (search.fits, moved))
-    near = {m for m, f in moved.items() if m == NOTHING or search.fits[m].evidence > then or f.evidence > now}
+def continued(near: Search, problem: Problem, adding: bool = True) -> Search:
+    """Search continued under another noise: near fits are fitted again, far fits rescaled.
+
+    Unless ``adding`` is false, combinations that have become promising are added.
+    """
+    best, space, values = near.best_named, near.space, near.values
+    problem = problem.with_sd(best.prediction, near.null_fit.prediction)
+    scale = near.problem.sd / problem.sd
+    moved = {m: f.in_sigmas(scale, f.evidence + _counted_anew(f.residual, scale)) for m, f in near.fits.items()}
+    then, now = (max(f.evidence for f in fits.values()) - HOPELESS_BEHIND for fits in (near.fits, moved))
     fits = {
-        m: integrate_change_points(problem, map_fit(problem, m, f.z, warm=True, slopes=f.slopes)) if m in near else f
+        m: map_fit(problem, m, f.z, warm=True, slopes=f.slopes)
+        if (adding and len(m.effects) < 2) or near.fits[m].evidence > then or f.evidence > now
+        else f
         for m, f in moved.items()
     }
-    null_fit, scores = fits[NOTHING], _scores(problem, fits, search.space, search.values, search.draws)
-    names = {s.id for s in search.draws}
-    discrepancy = discrepancy_beside_laws(problem, fits, search.space, search.values, names)
-    draws = tuple(replace(s, change=s.change * scale) for s in search.draws)
+    draws = tuple(replace(s, change=s.change * scale) for s in near.draws)
+    if adding:
+        singles = {m: f for m, f in fits.items() if len(m.effects) == 1}
+        fits |= {f.explanation: f for f in _fit_pairs(problem, fits[NOTHING], singles, draws, known=fits)}
+        fits = with_additions(problem, fits, draws)
+    fits = {m: integrate_change_points(problem, f) for m, f in fits.items() if m in moved or shows(problem, f, fits)}
+    scores = _scores(problem, fits, space, values, draws)
+    discrepancy = discrepancy_beside_laws(problem, fits, space, values, {s.id for s in draws})
     return replace(
-        search, problem=problem, null_fit=null_fit, fits=fits, scores=scores, discrepancy=discrepancy, draws=draws
+        near,
+        problem=problem,
+        null_fit=fits[NOTHING],
+        fits=fits,
+        scores=scores,
+        discrepancy=discrepancy,
+        draws=draws,
     )
 
 
@@ -224,13 +249,17 @@ def _scores(
 
 
 def _fit_pairs(
-    problem: Problem, null_fit: Fit, singles: dict[Explanation, Fit], draws: tuple[PriorDraws, ...]
+    problem: Problem,
+    null_fit: Fit,
+    singles: dict[Explanation, Fit],
+    draws: tuple[PriorDraws, ...],
+    known: Collection[Explanation] = (),
 ) -> list[Fit]:
-    """Fits of the promising pairs of effects, without pairs that are inseparable in time."""
+    """Fits of the promising pairs of effects that are not ``known``, without pairs that are inseparable in time."""
 
     leaders = sorted(singles.values(), key=lambda f: -f.evidence)[:PAIR_LEADERS]
     added = promising_additions(problem, leaders, draws, PAIRS)
-    pairs = [pair for pair in added if not one_in_time(pair[0], problem, null_fit)]
+    pairs = [pair for pair in added if pair[0] not in known and not one_in_time(pair[0], problem, null_fit)]
     return fit_from(problem, pairs, max([null_fit.evidence, *(f.evidence for f in singles.values())]))
 
 
