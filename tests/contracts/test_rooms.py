@@ -15,6 +15,7 @@ ROOMS = {
         *(
             "running",
             "schema",
+            "expressions",
             "chain",
             "laws",
             "base_model",
