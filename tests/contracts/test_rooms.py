@@ -20,6 +20,7 @@ ROOMS = {
             "laws",
             "base_model",
             "effects",
+            "own_laws",
             "friction",
             "parts",
             "gear",

@@ -11,7 +11,6 @@ from mixedlub.case.folder import Case
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import effect_words
 from mixedlub.diagnosis.report.text.answer import verdict_fit
-from mixedlub.effects import known_in
 
 FOLDER = "improved"
 FILES = ("system.toml", *(f"{name}.csv" for name in TABLES))
@@ -32,7 +31,7 @@ def improved_case(d: Diagnosis) -> Case | None:
     verdict = d.posterior.verdict
     if verdict.is_discrepancy:
         return None
-    problem, z, own = d.search.problem, most_probable(d), known_in(d.case.kind.name)
+    problem, z, own = d.search.problem, most_probable(d), d.search.problem.forward.catalogue
     fitted = {
         effect: {p.name: values[p.name] for p in own[effect].parameters}
         for effect, values in problem.parameters(verdict, z).items()
