@@ -161,7 +161,7 @@ def case_of(
         return table_of(frames[which], columns, which) if which in frames else None
 
     parsed = toml_file.parse(system_file.System, {"schema": "mixedlub-case/1", **system}, name)
-    return _checked(name, Path(folder), parsed, name, table, [as_path(one, "hypotheses") for one in hypotheses])
+    return _checked(name, Path(folder), parsed, name, table, hypotheses)
 
 
 def _checked(
@@ -170,7 +170,7 @@ def _checked(
     system: system_file.System,
     where: str,
     table: Callable[[str, tuple[Column, ...]], Table | None],
-    hypotheses: Sequence[Path],
+    hypotheses: Sequence[str | Path],
 ) -> Case:
     """The checked case of a parsed system; ``table`` returns its recordings or conditions for the allowed columns."""
     found = kind(system.kind)
@@ -192,10 +192,8 @@ def _checked(
         _report_missing_check(system.recording.check, recordings)
         conditions = table("conditions", _columns(found, system, False))
         conditions = None if conditions is None else _with_filled_sds(conditions, f"{quantity}_sd")
-    columns = [c.name for c in (*BOOKKEEPING, *found.columns) if c.dtype == "number"]
-    effects, laws = by_id(system.effects, folder, columns)
-    rivals = {name: as_hypothesis(law) for name, law in read_laws(hypotheses, columns).items()}
-    return Case(
+    effects, laws = by_id(system.effects, folder, _numbers(found))
+    case = Case(
         name,
         folder,
         system.model_copy(update={"effects": effects}) if laws else system,
@@ -204,9 +202,22 @@ def _checked(
         recordings,
         conditions,
         tuple(notes),
-        distinct([*laws.values(), *rivals.values()]),
-        tuple(rivals),
+        laws,
     )
+    return with_hypotheses(case, hypotheses)
+
+
+def with_hypotheses(case: Case, paths: Sequence[str | Path]) -> Case:
+    """The case with further law files that compete with the catalogue."""
+    files = [as_path(one, "hypotheses") for one in paths]
+    rivals = {name: as_hypothesis(law) for name, law in read_laws(files, _numbers(case.kind)).items()}
+    laws = distinct([*case.laws.values(), *rivals.values()])
+    return replace(case, laws=laws, hypotheses=(*case.hypotheses, *rivals))
+
+
+def _numbers(found: Kind) -> list[str]:
+    """Columns of conditions that are numbers."""
+    return [c.name for c in (*BOOKKEEPING, *found.columns) if c.dtype == "number"]
 
 
 def read_conditions(case: Case, path: Path) -> Table:

@@ -46,7 +46,9 @@ def improved_case(d: Diagnosis) -> Case | None:
             "calibration": problem.calibration(z, without=fitted),
         }
     )
-    return replace(d.given, system=system, conditions=None if d.wanted is None else d.wanted.table)
+    laws = {name: law for name, law in d.given.laws.items() if name in system.effects}
+    conditions = None if d.wanted is None else d.wanted.table
+    return replace(d.given, system=system, conditions=conditions, laws=laws, hypotheses=())
 
 
 def improved_files(d: Diagnosis) -> dict[str, str | bytes]:
