@@ -1,4 +1,4 @@
-"""Checks of a law of the user in a model: what it reads is there in time, and it has finite values."""
+"""Checks of a law of the user in a model: its quantities exist in time, and its values are finite."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from mixedlub.chain.ranges import beyond
 from mixedlub.own_laws.law import FileLaw
 from profiles.errors import InputError, nearest
 
+ABSENT = "has no such quantity"
+"""Part of the message on a quantity that a model lacks."""
 TRIED = (-2.0, 0.0, 2.0)
 """Standard deviations from the prior median at which each parameter is tried."""
 
@@ -29,11 +31,11 @@ def check_usable(law: Effect, chain: Chain, inputs: Mapping[str, Any], want: str
     for name in own.arguments:
         if name not in made:
             key = "acts_on" if name in law.acts_on else "expression"
-            rule = f"the model of a {model_of} has no such quantity; {nearest(name, made)}"
+            rule = f"the model of a {model_of} {ABSENT}; {nearest(name, made)}"
             raise InputError(rule, where=f"{where}: {key}", value=name)
     for name in law.valid:
         if name not in made:
-            rule = f"the model of a {model_of} has no such quantity; {nearest(name, made)}"
+            rule = f"the model of a {model_of} {ABSENT}; {nearest(name, made)}"
             raise InputError(rule, where=f"{where}: range", value=name)
     changed = law.acts_on[0]
     try:

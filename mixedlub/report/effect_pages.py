@@ -17,7 +17,7 @@ from mixedlub.chain.model import Model
 from mixedlub.chain.plain_text import entry
 from mixedlub.effects import catalogue, find
 from mixedlub.kinds import KINDS, kind
-from mixedlub.own_laws import ENDING, check_usable, columns_read, read_law
+from mixedlub.own_laws import ABSENT, ENDING, check_usable, columns_read, read_law
 from profiles.errors import InputError
 
 RIGS = KINDS
@@ -176,7 +176,7 @@ def _own_page(path: Path) -> str:
         low, middle, high = (f"{100 * v:.3g}" for v in np.quantile(change, (0.0, 0.5, 1.0)))
         lines.append(entry(f"  {rig}", f"{low} to {high} % of the reading, half of them below {middle} %", _RIG_INDENT))
     if len(unable) == len(RIGS):
-        raise unable[0][1]
+        raise max((error for _, error in unable), key=lambda error: ABSENT not in error.rule)
     named = ", ".join(rig for rig, _ in unable)
     return "\n".join([law.page(), "", *lines, *([entry("  cannot act", f"on {named}", _RIG_INDENT)] if named else [])])
 
