@@ -55,7 +55,7 @@ def command(
         Path | None, typer.Option(metavar="DIR", parser=named_folder, help="Folder to make; default out/new/WHAT.")
     ] = None,
 ) -> None:
-    """A study, factors, a case, line contacts (ehl), gears, a gearbox (efficiency), a law or an evaluation to start from.
+    """A study, factors, a case, line contacts (ehl), gears, a gearbox (efficiency), a law, an evaluation to start from.
 
     A template with the values of an example rig: optional keys are comments with their meaning. It runs unchanged; the
     readings of a case are synthetic, from the base model.
