@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -115,23 +116,20 @@ LAWS = (
 
 @dataclass(frozen=True)
 class Made:
-    """A case folder with four hypotheses, the true one, its size, and the lead over all rivals without noise."""
+    """A case folder with four hypotheses, the true one and its size; ``lead`` over all rivals without noise."""
 
     folder: Path
     truth: str
     size: float
-    lead: float
+    lead: Callable[[], float]
 
 
 def _sd(values: np.ndarray, level: float, typical: float) -> np.ndarray:
     return np.hypot(0.01 * level * values, 0.002 * level * typical)
 
 
-def make(folder: Path, kind: str, seed: int, judged: bool = True) -> Made:
-    """A case with one planted law at random strength, and hypotheses of it and three others.
-
-    ``judged``: the lead over the laws of the proof and the false hypotheses is computed, which takes seconds.
-    """
+def make(folder: Path, kind: str, seed: int) -> Made:
+    """A case with one planted law at random strength, and hypotheses of it and three others."""
     rng = np.random.default_rng([seed, 77])
     rig, z = KINDS[kind].draw(rng), rng.standard_normal(5)
     truth, *others = (LAWS[i] for i in rng.permutation(len(LAWS))[:4])
@@ -150,18 +148,17 @@ def make(folder: Path, kind: str, seed: int, judged: bool = True) -> Made:
     (folder / "hypotheses").mkdir()
     for law in (truth, *others):
         (folder / "hypotheses" / f"{law.id}.toml").write_text(law.text, encoding="utf-8")
-    lead = _lead(rig, ~hidden, values, sd, z, others) if judged else np.inf
-    return Made(folder, truth.id, size, lead)
+    return Made(folder, truth.id, size, partial(_lead, rig, ~hidden, values, sd, z, others))
 
 
 def _lead(rig: Rig, rows: np.ndarray, values: np.ndarray, sd: np.ndarray, z: np.ndarray, others: Any) -> float:
-    """Least chi-square of a rival: nothing, an effect of the proof, or a false hypothesis, calibration fitted."""
+    """Least chi-square of a rival on the coarse rig: nothing, an effect of the proof, or a false hypothesis."""
     kept = np.flatnonzero(rows)
-    target = Target(rig.refined, kept, values[kept], sd[kept])
+    extra = values - rig.refined.model(z, [])
+    target = Target(rig, kept, (rig.model(z, []) + extra)[kept], sd[kept])
     none = best(target, (), z)
     false = [min(_chi_square(target, law, law.size * s, none.z) for s in (-1.0, 1.0)) for law in others]
-    coarse = Target(rig, kept, values[kept] - rig.refined.model(z, [])[kept] + rig.model(z, [])[kept], sd[kept])
-    named = [best(coarse, (form,), none.z).chi_square for form in rig.forms]
+    named = [best(target, (form,), none.z).chi_square for form in rig.forms]
     return float(min(none.chi_square, *false, *named))
 
 
