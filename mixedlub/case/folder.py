@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from mixedlub.case.import_file import read_import_file
+from mixedlub.chain.effect import Effect
 from mixedlub.gear import ROUNDED
 from mixedlub.kinds import Kind, kind
+from mixedlub.own_laws import as_hypothesis, by_id, distinct, read_laws
 from mixedlub.rig.rig import Rig
 from mixedlub.running.shell import quoted
 from mixedlub.schema import system_file, toml_file
@@ -28,7 +30,7 @@ from mixedlub.schema.table import (
     span,
     table_of,
 )
-from profiles.errors import InputError, nearest
+from profiles.errors import InputError, as_path, nearest
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -38,13 +40,16 @@ if TYPE_CHECKING:
 
 SUMMARY_WIDTH = 80
 """Characters of the summary of a table."""
+HYPOTHESES = "hypotheses"
+"""Folder of a case with laws that compete with the catalogue."""
 RUNS_LISTED = 5
 """Largest number of runs that a note lists."""
 
 
 @dataclass(frozen=True)
 class Case:
-    """Everything in a case folder, checked. It prints as a summary:
+    """Everything in a case folder, checked. ``laws``: laws of the user by id, of which the ``hypotheses`` compete with
+    the catalogue and the others are named in ``[effects]``. It prints as a summary:
 
     >>> import mixedlub as ml
     >>> drive = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm"}}
@@ -63,6 +68,8 @@ class Case:
     recordings: Table | None
     conditions: Table | None
     notes: tuple[Finding, ...]
+    laws: Mapping[str, Effect] = field(default_factory=dict)
+    hypotheses: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         tables = {"recordings": self.recordings, "conditions": self.conditions}
@@ -108,7 +115,8 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
             return None
         raise InputError(f"no such file{other_recordings(folder)}", where=str(path))
 
-    found = _checked(folder.resolve().name, folder, system, str(file), table)
+    hypotheses = sorted((folder / HYPOTHESES).glob("*.toml"))
+    found = _checked(folder.resolve().name, folder, system, str(file), table, hypotheses)
     return replace(found, notes=(*read_import_file(folder), *found.notes))
 
 
@@ -130,10 +138,12 @@ def case_of(
     *,
     name: str = "case",
     folder: str | Path = ".",
+    hypotheses: Sequence[str | Path] = (),
 ) -> Case:
     """A case from the sections of its system and from data frames (or lists by column), checked like a case folder.
 
-    Files that the system names, such as traces, are read relative to ``folder``.
+    Files that the system names, such as traces, are read relative to ``folder``. ``hypotheses``: law files that compete
+    with the catalogue in a diagnosis.
 
     >>> import mixedlub as ml, pandas as pd
     >>> drive = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm"}}
@@ -151,7 +161,7 @@ def case_of(
         return table_of(frames[which], columns, which) if which in frames else None
 
     parsed = toml_file.parse(system_file.System, {"schema": "mixedlub-case/1", **system}, name)
-    return _checked(name, Path(folder), parsed, name, table)
+    return _checked(name, Path(folder), parsed, name, table, hypotheses)
 
 
 def _checked(
@@ -160,6 +170,7 @@ def _checked(
     system: system_file.System,
     where: str,
     table: Callable[[str, tuple[Column, ...]], Table | None],
+    hypotheses: Sequence[str | Path],
 ) -> Case:
     """The checked case of a parsed system; ``table`` returns its recordings or conditions for the allowed columns."""
     found = kind(system.kind)
@@ -181,9 +192,32 @@ def _checked(
         _report_missing_check(system.recording.check, recordings)
         conditions = table("conditions", _columns(found, system, False))
         conditions = None if conditions is None else _with_filled_sds(conditions, f"{quantity}_sd")
-    return Case(
-        name, folder, system, found, Rig(system, folder, found.unread_of_oil), recordings, conditions, tuple(notes)
+    effects, laws = by_id(system.effects, folder, _numbers(found))
+    case = Case(
+        name,
+        folder,
+        system.model_copy(update={"effects": effects}) if laws else system,
+        found,
+        Rig(system, folder, found.unread_of_oil),
+        recordings,
+        conditions,
+        tuple(notes),
+        laws,
     )
+    return with_hypotheses(case, hypotheses)
+
+
+def with_hypotheses(case: Case, paths: Sequence[str | Path]) -> Case:
+    """The case with further law files that compete with the catalogue."""
+    files = [as_path(one, "hypotheses") for one in paths]
+    rivals = {name: as_hypothesis(law) for name, law in read_laws(files, _numbers(case.kind)).items()}
+    laws = distinct([*case.laws.values(), *rivals.values()])
+    return replace(case, laws=laws, hypotheses=(*case.hypotheses, *rivals))
+
+
+def _numbers(found: Kind) -> list[str]:
+    """Columns of conditions that are numbers."""
+    return [c.name for c in (*BOOKKEEPING, *found.columns) if c.dtype == "number"]
 
 
 def read_conditions(case: Case, path: Path) -> Table:

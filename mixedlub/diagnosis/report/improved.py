@@ -11,7 +11,6 @@ from mixedlub.case.folder import Case
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import effect_words
 from mixedlub.diagnosis.report.text.answer import verdict_fit
-from mixedlub.effects import known_in
 
 FOLDER = "improved"
 FILES = ("system.toml", *(f"{name}.csv" for name in TABLES))
@@ -32,7 +31,7 @@ def improved_case(d: Diagnosis) -> Case | None:
     verdict = d.posterior.verdict
     if verdict.is_discrepancy:
         return None
-    problem, z, own = d.search.problem, most_probable(d), known_in(d.case.kind.name)
+    problem, z, own = d.search.problem, most_probable(d), d.search.problem.forward.catalogue
     fitted = {
         effect: {p.name: values[p.name] for p in own[effect].parameters}
         for effect, values in problem.parameters(verdict, z).items()
@@ -47,7 +46,9 @@ def improved_case(d: Diagnosis) -> Case | None:
             "calibration": problem.calibration(z, without=fitted),
         }
     )
-    return replace(d.given, system=system, conditions=None if d.wanted is None else d.wanted.table)
+    laws = {name: law for name, law in d.given.laws.items() if name in system.effects}
+    conditions = None if d.wanted is None else d.wanted.table
+    return replace(d.given, system=system, conditions=conditions, laws=laws, hypotheses=())
 
 
 def improved_files(d: Diagnosis) -> dict[str, str | bytes]:
