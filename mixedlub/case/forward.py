@@ -73,9 +73,9 @@ class Forward:
             reading_scale = float(np.median(np.abs(self._rows(plain["reading"])))) / self.scale
         self.inputs["reading_scale"] = reading_scale
         self.inputs |= {name: plain[quantity] for quantity, name in case.kind.base_inputs.items()}
-        self.known = known_effects(case.system.effects, case.kind.name, self.chain, tuple(self.inputs), "reading")
+        self.known = known_effects(case.system.effects, case.kind.effect_kind, self.chain, tuple(self.inputs), "reading")
         self.uncertain_laws = tuple(
-            e for e in known_in(case.kind.name).values() if any(p.base_sd for p in e.parameters) and self._offers(e)
+            e for e in known_in(case.kind.effect_kind).values() if any(p.base_sd for p in e.parameters) and self._offers(e)
         )
         self.calibrations: tuple[Calibration, ...] = (
             *(c for c in (*calibrations(case.system), *extra) if all(n in self.inputs for n in c.needs)),
@@ -99,7 +99,7 @@ class Forward:
                 raise InputError(f"is not calibrated in this case; {hint}", where="calibration", value=name)
 
     def _build(self, effects: tuple[str, ...]) -> Model:
-        return self.model(("reading",), [known_in(self.case.kind.name)[e] for e in effects])
+        return self.model(("reading",), [known_in(self.case.kind.effect_kind)[e] for e in effects])
 
     def model(self, want: Sequence[str], effects: Sequence[Effect] = (), further: Chain = ()) -> Model:
         """Base model of the case with more effects, and ``further`` laws after its laws."""
@@ -179,14 +179,14 @@ class Forward:
 
     def effects(self, exclude: Sequence[str] = ()) -> tuple[Effect, ...]:
         """Effects of the catalogue that apply to these rows, with the parameters that are free in this kind."""
-        catalogue = known_in(self.case.kind.name).values()
+        catalogue = known_in(self.case.kind.effect_kind).values()
         return tuple(e for e in catalogue if e.id not in exclude and self._offers(e))
 
     def _offers(self, e: Effect) -> bool:
         """Whether an effect applies to these rows beside those that the case names."""
         return (
             e.id not in self.known.values
-            and available(e, self.chain, tuple(self.inputs), "reading", self.case.kind.name)
+            and available(e, self.chain, tuple(self.inputs), "reading", self.case.kind.effect_kind)
             and (not e.needs_variation_in or varies(self.inputs[e.needs_variation_in]))
             and self._within(e)
         )

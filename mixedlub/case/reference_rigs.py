@@ -61,8 +61,8 @@ def case(name: str) -> Case:
         },
     }
     parsed = toml_file.parse(system_file.System, system, f"standard {name}")
-    here = Path(".")
-    return Case(f"standard_{name}", here, parsed, found, Rig(parsed, here), None, None, ())
+    here, headers = Path("."), [column for column, _ in conditions(name).values()]
+    return Case(f"standard_{name}", here, parsed, found.of_case(parsed, headers), Rig(parsed, here), None, None, ())
 
 
 @cache

@@ -57,7 +57,7 @@ def judge_rows(
     """Judge the rows of a model, with effects at these parameters beside the effects that the case names."""
     calibration = {**forward.case.system.calibration, **(calibration or {})}
     values = {**forward.known_values(calibration), **(parameters or {})}
-    added = [known_in(forward.case.kind.name)[name] for name in parameters or {}]
+    added = [known_in(forward.case.kind.effect_kind)[name] for name in parameters or {}]
     inputs = forward.run(calibration, parameters).inputs
     steps = forward.model(("reading",), added).steps
     made = {*inputs, *(name for name, _ in forward.chain)}

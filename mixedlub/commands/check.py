@@ -147,7 +147,7 @@ def _levels(table: Table, column: str) -> str:
 
 
 def _uncertain(case: Case, movable: Sequence[Calibration]) -> Iterator[str]:
-    stated = {k: v for k, v in case.system.uncertainty.model_dump().items() if v > 0}
+    stated = case.system.uncertainty.stated
     stated |= _stated_of_effects(case)
     words = ", ".join(f"{k.replace('_', ' ')} ({v:g})" for k, v in stated.items())
     others = [c for c in movable if c.name not in stated]

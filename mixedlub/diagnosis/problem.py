@@ -106,7 +106,7 @@ class Problem:
     def effects(self, explanation: Explanation) -> list[Effect]:
         """Effects of an explanation, with their free parameters."""
         if explanation not in self._effects:
-            known = known_in(self.case.kind.name)
+            known = known_in(self.case.kind.effect_kind)
             every = (known[name] for name in explanation.effects)
             self._effects[explanation] = [e.fixing(self.fixed[e.id]) if e.id in self.fixed else e for e in every]
         return self._effects[explanation]

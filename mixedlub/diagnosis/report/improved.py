@@ -32,7 +32,7 @@ def improved_case(d: Diagnosis) -> Case | None:
     verdict = d.posterior.verdict
     if verdict.is_discrepancy:
         return None
-    problem, z, own = d.search.problem, most_probable(d), known_in(d.case.kind.name)
+    problem, z, own = d.search.problem, most_probable(d), known_in(d.case.kind.effect_kind)
     fitted = {
         effect: {p.name: values[p.name] for p in own[effect].parameters}
         for effect, values in problem.parameters(verdict, z).items()
