@@ -73,9 +73,13 @@ class Forward:
             reading_scale = float(np.median(np.abs(self._rows(plain["reading"])))) / self.scale
         self.inputs["reading_scale"] = reading_scale
         self.inputs |= {name: plain[quantity] for quantity, name in case.kind.base_inputs.items()}
-        self.known = known_effects(case.system.effects, case.kind.effect_kind, self.chain, tuple(self.inputs), "reading")
+        self.known = known_effects(
+            case.system.effects, case.kind.effect_kind, self.chain, tuple(self.inputs), "reading"
+        )
         self.uncertain_laws = tuple(
-            e for e in known_in(case.kind.effect_kind).values() if any(p.base_sd for p in e.parameters) and self._offers(e)
+            e
+            for e in known_in(case.kind.effect_kind).values()
+            if any(p.base_sd for p in e.parameters) and self._offers(e)
         )
         self.calibrations: tuple[Calibration, ...] = (
             *(c for c in (*calibrations(case.system), *extra) if all(n in self.inputs for n in c.needs)),

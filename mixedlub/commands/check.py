@@ -30,10 +30,12 @@ def command(case: Annotated[Path, typer.Argument(metavar="CASE", help="Case fold
     Data present, data missing, and defaults used.
     """
     from mixedlub.case.folder import read_case
+    from mixedlub.schema.units import stated_units
 
     with input_errors_from(str(case)):
         found = read_case(case_folder(case), need_recordings=False)
-        lines = list(understood(found))
+        with stated_units(found.kind.units):
+            lines = list(understood(found))
     print_findings(found.notes)
     for line in lines:
         echo(line)

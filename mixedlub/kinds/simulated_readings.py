@@ -157,9 +157,7 @@ DRIVE = Place(
     lambda system, table: friction_map.chain(system, table)[1:],
     _drive_inputs,
 )
-FILM = Place(
-    film.KIND, _constant("film_thickness"), lambda system, table: (("reading", film.reading),), _film_inputs
-)
+FILM = Place(film.KIND, _constant("film_thickness"), lambda system, table: (("reading", film.reading),), _film_inputs)
 VISCOSITY = Place(
     viscosity.KIND,
     _constant("viscosity"),

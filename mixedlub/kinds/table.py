@@ -19,7 +19,7 @@ from mixedlub.kinds.standard import StandardRig
 from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file
 from mixedlub.schema.findings import finding, report
-from mixedlub.schema.table import BOOKKEEPING, RUN, Column, Table, sd_column
+from mixedlub.schema.table import BOOKKEEPING, RUN, Column, Table
 from mixedlub.schema.units import tidy, unit_of
 from profiles.errors import InputError, nearest
 
@@ -155,9 +155,7 @@ def _inputs_at(place: Place, scale: float) -> Callable[[system_file.System, Rig,
     return inputs
 
 
-def _calibration_at(
-    place: Place, logarithmic: bool
-) -> Callable[[system_file.System, Table], tuple[Calibration, ...]]:
+def _calibration_at(place: Place, logarithmic: bool) -> Callable[[system_file.System, Table], tuple[Calibration, ...]]:
     """Function for the calibrated inputs of the simulation: those with a column in the recording."""
 
     def calibration(system: system_file.System, recorded: Table) -> tuple[Calibration, ...]:

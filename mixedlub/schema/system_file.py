@@ -265,7 +265,7 @@ class SimulationInput(Section):
 class SimulationUncertainty(Uncertainty):
     """Uncertain inputs of the user's own simulation, by their names in it."""
 
-    inputs: dict[str, SimulationInput] = {}
+    inputs: dict[str, SimulationInput] = key("uncertain inputs by name", {})
 
     @property
     def stated(self) -> dict[str, float]:

@@ -10,6 +10,7 @@ from typing import Any
 from mixedlub.diagnosis.assessment.power_law import DescribedDiscrepancy, describe_discrepancy
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.explanation import DISCREPANCY
+from mixedlub.diagnosis.labels import in_units_of_case
 from mixedlub.diagnosis.report.improved import FILES, FOLDER, improved_files
 from mixedlub.diagnosis.report.text import words
 from mixedlub.diagnosis.report.text.answer import as_json, predictions
@@ -53,6 +54,7 @@ def case_origin(folder: Path) -> Origin:
     return origin_of(folder, ("system.toml", "recordings.csv"))
 
 
+@in_units_of_case
 def files(d: Diagnosis) -> dict[str, str | bytes]:
     """Contents of all files of the answer, by file name."""
     extra = described(d)
@@ -82,6 +84,7 @@ def drawings(d: Diagnosis, extra: DescribedDiscrepancy | None) -> dict[str, str 
     return {"report.html": page, **{f"{FIGURES}/{name}.svg": XML + svg for name, svg in svgs.items()}}
 
 
+@in_units_of_case
 def report_text(d: Diagnosis) -> str:
     """The report as plain text."""
     return _text(d, words.sections(d, described(d)))
