@@ -54,7 +54,7 @@ def case(name: str) -> Case:
         "kind": name,
         **found.standard.sections,
         "surfaces": surfaces if "surfaces" in conditions(name) else {},
-        "uncertainty": UNCERTAINTY,
+        "uncertainty": found.standard.sections.get("uncertainty", UNCERTAINTY),
         "recording": {
             "quantity": found.quantities[0],
             "noise": {"relative": RELATIVE_NOISE, "absolute": found.standard.noise},

@@ -53,6 +53,7 @@ class Kind:
     each row, for kinds with readings that change sign with it. ``by_case(system, headers)``: the kind of a case, where
     the columns depend on it. ``effects_of``: name of the kind whose effects apply, if not its own.
     ``signed``: readings of either sign. ``units``: units of columns without a unit in their name.
+    ``shown``: columns in the reference of the format, where they depend on the case.
     ``check(system, table, recorded)``: raises an error for values that only the kind can judge.
 
     For imports and figures: ``either``: alternative columns. Histories (``is_history``) are plotted over time; logged
@@ -88,6 +89,7 @@ class Kind:
     effects_of: str = ""
     signed: bool = False
     units: Mapping[str, str] = field(default_factory=dict)
+    shown: tuple[Column, ...] = ()
     check: Callable[[system_file.System, Table, Table | None], None] = lambda system, table, recorded: None
 
     def __post_init__(self) -> None:

@@ -215,19 +215,32 @@ def fill_channels(table: Table, recorded: Table) -> Table:
     return Table({**table.columns, **interpolated(table, recorded, names)}, table.source)
 
 
+def _made_up(rows: Mapping[str, np.ndarray]) -> np.ndarray:
+    power = rows["torque_Nm"] * rows["speed_rpm"] * np.pi / 30.0
+    return np.asarray(1.5e-3 * power * (1.0 + 20.0 / rows["oil_temperature_C"]))
+
+
 STANDARD = StandardRig(
-    sections={},
+    sections={
+        "conditions": {"oil_temperature_C": {"unit": "°C", "meaning": "temperature of the oil in the sump"}},
+        "uncertainty": {"friction": 0.1},
+    },
     noise=0.3,
     conditions={
         "load": ("torque_Nm", (50.0, 100.0, 150.0)),
         "speed": ("speed_rpm", (500.0, 1000.0, 2000.0, 3000.0)),
         "oil_temperature": ("oil_temperature_C", (50.0, 70.0, 90.0)),
     },
-    channels=lambda rows, reading: {
-        SIMULATED: 1.5e-4 * rows["torque_Nm"] * rows["speed_rpm"] * (1.0 + 20.0 / rows["oil_temperature_C"])
-    },
+    channels=lambda rows, reading: {SIMULATED: _made_up(rows), f"{MOVED}friction": 1.1 * _made_up(rows)},
 )
 """A made-up simulation of the loss of gears."""
+
+SHOWN = (
+    Column("CONDITION", required=False, meaning="any conditions, numbers or names: [conditions.CONDITION]"),
+    Column(SIMULATED, meaning="reading of the user's own simulation, in the unit of the reading"),
+    Column(f"{MOVED}NAME", required=False, meaning="the simulation with NAME of [uncertainty] one sd up"),
+    Column("READING", meaning="what the rig recorded, as recording.quantity names it"),
+)
 
 KIND = Kind(
     name="table",
@@ -245,5 +258,6 @@ KIND = Kind(
     fill_channels=fill_channels,
     by_case=of_case,
     check=check,
+    shown=SHOWN,
     standard=STANDARD,
 )
