@@ -124,6 +124,14 @@ def _in_file(where: str) -> Iterator[None]:
         raise InputError(error.rule, where=f"{where}: {error.where}", value=error.value) from None
 
 
+def check_rows(found: Kind, system: system_file.System, folder: Path, table: Table, recorded: Table | None) -> None:
+    """Raise the error of the kind about the rows of a table, with the folder."""
+    try:
+        found.check(system, table, recorded)
+    except InputError as error:
+        raise InputError(error.rule, where=str(folder / error.where), value=error.value) from None
+
+
 def header_of(folder: Path, names: Sequence[str]) -> list[str]:
     """Columns of the first of these tables that is a text file; none where its reading will report an error."""
     for name in names:
@@ -203,13 +211,13 @@ def _checked(
         recordings = table("recordings", _columns(found, system, True))
         if recordings is not None:
             _refuse_stuck(recordings, quantity, folder)
-            found.check(system, recordings, None)
+            check_rows(found, system, folder, recordings, None)
             recordings = _with_filled_sds(recordings, f"{quantity}_sd")
         _report_missing_check(system.recording.check, recordings)
         conditions = table("conditions", _columns(found, system, False))
         conditions = None if conditions is None else _with_filled_sds(conditions, f"{quantity}_sd")
         if conditions is not None and recordings is not None:
-            found.check(system, conditions, recordings)
+            check_rows(found, system, folder, conditions, recordings)
     return Case(
         name, folder, system, found, Rig(system, folder, found.unread_of_oil), recordings, conditions, tuple(notes)
     )
@@ -220,7 +228,7 @@ def read_conditions(case: Case, path: Path) -> Table:
     columns = _columns(case.kind, case.system, False)
     found = read_table(path, columns, first_run=_free_run(case), imported=True)
     if case.recordings is not None:
-        case.kind.check(case.system, found, case.recordings)
+        check_rows(case.kind, case.system, path.parent, found, case.recordings)
     return _with_filled_sds(found, f"{case.quantity}_sd")
 
 
@@ -232,7 +240,7 @@ def conditions_for(case: Case, at: Frame) -> Table:
         frame = frame.assign(run=np.arange(first, first + len(frame)))
     wanted = table_of(frame, _columns(case.kind, case.system, False), "conditions")
     if case.recordings is not None:
-        case.kind.check(case.system, wanted, case.recordings)
+        check_rows(case.kind, case.system, case.folder, wanted, case.recordings)
     refuse_used_runs(case, wanted, Path(wanted.source))
     return wanted
 

@@ -150,6 +150,8 @@ def _levels(table: Table, column: str) -> str:
 
 def _uncertain(case: Case, movable: Sequence[Calibration]) -> Iterator[str]:
     stated = case.system.uncertainty.stated
+    if case.kind.by_case is not None:
+        stated = {name: sd for name, sd in stated.items() if name in {c.name for c in movable}}
     stated |= _stated_of_effects(case)
     words = ", ".join(f"{k.replace('_', ' ')} ({v:g})" for k, v in stated.items())
     others = [c for c in movable if c.name not in stated]

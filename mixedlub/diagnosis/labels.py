@@ -11,7 +11,8 @@ from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.recording.set_points import one_point
 from mixedlub.schema.units import stated_units, unit_of, without_unit
 
-P, R = ParamSpec("P"), TypeVar("R")
+P = ParamSpec("P")
+R = TypeVar("R")
 
 STAGE_WORDS = {
     "film": "the oil film",

@@ -117,6 +117,10 @@ def check(system: system_file.System, table: Table, recorded: Table | None) -> N
             raise InputError(rule, where=f"{table.source}: header")
     if recorded is None:
         _check_recorded(table, list(stated))
+        free = [name for name in table.ignored if not name.startswith(MOVED)]
+        if free:
+            text = f"no conditions, as no [conditions.NAME] gives their unit: {', '.join(free)}"
+            report(finding("condition_undeclared", text, table.source))
 
 
 def _has_numbers(cells: np.ndarray) -> bool:

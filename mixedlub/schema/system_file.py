@@ -11,12 +11,14 @@ from unicodedata import category
 from pydantic import (
     AfterValidator,
     SerializeAsAny,
+    ValidationError,
     ValidationInfo,
     create_model,
     field_validator,
     model_serializer,
     model_validator,
 )
+from pydantic_core import PydanticCustomError
 
 from mixedlub.schema.discovery import declared
 from mixedlub.schema.gear_file import gear_names, with_preset
@@ -262,6 +264,15 @@ class SimulationInput(Section):
         return float(self.relative if self.sd is None else self.sd)  # type: ignore[arg-type]
 
 
+def _simulation_input(name: str, given: Any) -> SimulationInput:
+    """Uncertain input of a number, its relative standard deviation, or of a table."""
+    try:
+        return SimulationInput.model_validate(given if isinstance(given, Mapping) else {"relative": given})
+    except ValidationError:
+        rule = "must be a relative standard deviation from 0, or { value = ..., sd = ... }"
+        raise PydanticCustomError("simulation_input", "{name} {rule}", {"name": name, "rule": rule}) from None
+
+
 class SimulationUncertainty(Uncertainty):
     """Uncertain inputs of the user's own simulation, by their names in it."""
 
@@ -389,8 +400,7 @@ class System(RigFile):
         """Inputs of any name for kinds whose columns depend on the case."""
         if not isinstance(given, Mapping) or not _has_own_columns(info.data.get("kind")):
             return given
-        inputs = {name: one if isinstance(one, Mapping) else {"relative": one} for name, one in given.items()}
-        return SimulationUncertainty.model_validate({"inputs": inputs}, context=info.context)
+        return SimulationUncertainty(inputs={name: _simulation_input(name, one) for name, one in given.items()})
 
     @field_validator("conditions")
     @classmethod
