@@ -229,7 +229,7 @@ def diagnose(
     >>> ml.diagnose(rows, simulate=own, inputs={"dry": (0.5, 0.1)}, noise={"relative": 0.01}).verdict
     ['stribeck']
     """
-    of_table = {"reading": reading, "units": units, "noise": noise, "inputs": inputs}
+    of_table: dict[str, Any] = {"reading": reading, "units": units, "noise": noise, "inputs": inputs}
     of_table |= {"system": system, "folder": folder, "name": name}
     given = {option: value for option, value in of_table.items() if value is not None}
     if simulate is not None:

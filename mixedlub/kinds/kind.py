@@ -53,6 +53,7 @@ class Kind:
     each row, for kinds with readings that change sign with it. ``by_case(system, headers)``: the kind of a case, where
     the columns depend on it. ``effects_of``: name of the kind whose effects apply, if not its own.
     ``signed``: readings of either sign. ``units``: units of columns without a unit in their name.
+    ``filled``: channels that follow from the conditions, which ``fill_channels`` predicts at others.
     ``shown``: columns in the reference of the format, where they depend on the case.
     ``check(system, table, recorded)``: raises an error for values that only the kind can judge.
 
@@ -90,6 +91,7 @@ class Kind:
     signed: bool = False
     units: Mapping[str, str] = field(default_factory=dict)
     shown: tuple[Column, ...] = ()
+    filled: tuple[str, ...] = ()
     check: Callable[[system_file.System, Table, Table | None], None] = lambda system, table, recorded: None
 
     def __post_init__(self) -> None:
@@ -99,6 +101,11 @@ class Kind:
     def of_case(self, system: system_file.System, headers: Iterable[str]) -> Kind:
         """The kind with the columns of a case, whose table has these headers."""
         return self if self.by_case is None else self.by_case(system, tuple(headers))
+
+    def with_condition(self, table: Table, name: str, values: np.ndarray) -> Table:
+        """The rows at other values of a condition, without the channels that follow from it."""
+        kept = {column: cells for column, cells in table.columns.items() if column not in self.filled}
+        return Table({**kept, name: values}, table.source)
 
     @property
     def effect_kind(self) -> str:

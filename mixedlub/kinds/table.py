@@ -43,12 +43,12 @@ def of_case(system: system_file.System, headers: Sequence[str]) -> Kind:
     place = place_of(quantity, {*headers, *declared})
     found = KIND if place.kind is None else place.kind
     reading = READINGS.get(quantity) or Column(quantity, meaning="reading", words=())
-    _refuse_other_unit(quantity, getattr(system.recording, "unit", None), "recording.unit")
+    unit: str | None = getattr(system.recording, "unit", None)
+    _refuse_other_unit(quantity, unit, "recording.unit")
     above = 0.0 if found.logarithmic else -np.inf
     inputs = [Column(f"{MOVED}{name}", above=above, required=False) for name in system.uncertainty.stated]
     channels = () if place.kind is None else place.kind.instrument_channels
-    units = {name: one.unit for name, one in system.conditions.items() if one.unit not in (None, NO_UNIT)}
-    units |= {quantity: system.recording.unit} if getattr(system.recording, "unit", None) else {}
+    stated = {quantity: unit, **{name: one.unit for name, one in system.conditions.items()}}
     return replace(
         KIND,
         readings=(reading,),
@@ -63,9 +63,10 @@ def of_case(system: system_file.System, headers: Sequence[str]) -> Kind:
         scale=found.scale,
         direction=found.direction,
         is_history=found.is_history,
+        filled=(SIMULATED, *(c.name for c in inputs)),
         effects_of="" if place.kind is None else place.kind.name,
         signed=place.kind is None,
-        units={name: str(unit) for name, unit in units.items()},
+        units={name: unit for name, unit in stated.items() if unit and unit != NO_UNIT},
     )
 
 

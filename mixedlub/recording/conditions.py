@@ -207,7 +207,7 @@ def _is_negligible(name: str, forward: Forward) -> bool:
     table = forward.table
     if name not in table or not is_noisy_constant(name, table[name]):
         return False
-    steady = Table({**table.columns, name: np.full(len(table), np.median(table[name]))}, table.source)
+    steady = forward.case.kind.with_condition(table, name, np.full(len(table), np.median(table[name])))
     here, there = forward.predict(), Forward(forward.case, steady).predict()
     return 0.0 < float(np.max(np.abs(there - here))) <= NEGLIGIBLE_CHANGE * float(np.median(np.abs(here)))
 

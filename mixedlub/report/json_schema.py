@@ -47,9 +47,9 @@ def json_schema(name: str) -> dict[str, Any]:
 
 def _open(definitions: dict[str, Any]) -> None:
     """Inputs of any name, and a reading of any unit, in definitions of a kind whose columns depend on the case."""
-    value = {"type": "object", "properties": {"value": {"type": "number"}, "sd": {"type": "number", "minimum": 0}}}
-    value |= {"required": ["value", "sd"], "additionalProperties": False}
-    value["properties"] |= {"unit": {"type": "string"}}  # type: ignore[operator]
+    keys = {"value": {"type": "number"}, "sd": {"type": "number", "minimum": 0}, "unit": {"type": "string"}}
+    value: dict[str, Any] = {"type": "object", "properties": keys, "required": ["value", "sd"]}
+    value["additionalProperties"] = False
     uncertainty = definitions["Uncertainty"]
     uncertainty["properties"] = {}
     uncertainty["additionalProperties"] = {"anyOf": [{"type": "number", "minimum": 0}, value]}
