@@ -32,6 +32,8 @@ READINGS = {c.name: c for one in NATIVE for c in one.KIND.readings}
 RESULTS = ("base", "calibrated", "predicted", "low90", "high90", "mismatch_z", "validity", "surfaces")
 """Names of columns in results."""
 NO_UNIT = "-"
+NOMINAL = "nominal_simulation"
+"""Input of the chain: the simulation before calibration."""
 
 
 def of_case(system: system_file.System, headers: Sequence[str]) -> Kind:
@@ -155,7 +157,8 @@ def _inputs_at(place: Place, scale: float) -> Callable[[system_file.System, Rig,
         found = place.inputs(system, rig, table, recorded)
         names = [SIMULATED, *(name for name in table.columns if name.startswith(MOVED))]
         simulated = {name: np.asarray(table[name], dtype=float)[:, None] / scale for name in names}
-        return {**found, **simulated, place.quantity(system, table): simulated[SIMULATED]}
+        nominal = simulated.pop(SIMULATED)
+        return {**found, **simulated, NOMINAL: nominal, place.quantity(system, table): nominal}
 
     return inputs
 
@@ -195,7 +198,7 @@ def _calibrations(
         meaning = "factor on this input of the simulation" if factor else "input of the simulation"
         parameter = Parameter(name, unit, prior, meaning)
         response = _response(quantity, header, nominal, one.spread, factor, as_power)
-        yield Calibration(parameter, response, nominal, (quantity, SIMULATED, header), factor=factor)
+        yield Calibration(parameter, response, nominal, (quantity, NOMINAL, header), factor=factor)
 
 
 def _response(
@@ -203,7 +206,7 @@ def _response(
 ) -> Callable[[Mapping[str, Any], float], dict[str, Any]]:
     def response(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
         z = np.log(value) / spread if factor else (value - nominal) / spread
-        here, simulated, moved = inputs[quantity], inputs[SIMULATED], inputs[header]
+        here, simulated, moved = inputs[quantity], inputs[NOMINAL], inputs[header]
         if not as_power:
             return {quantity: here + z * (moved - simulated)}
         same_sign = moved * simulated > 0.0

@@ -17,7 +17,6 @@ def pump(at, friction, drag):
 
 def one_by_one(at, friction, drag):
     """The same model for single conditions."""
-    assert isinstance(at["speed_rpm"], float)
     return float(pump(at, friction, drag)) if at["speed_rpm"] > 0.0 else 0.0
 
 
@@ -67,7 +66,7 @@ def test_differences_are_those_of_one_standard_deviation():
         ({"inputs": {"friction": 0.08}}, "(value, sd)"),
         ({"inputs": {"friction": (np.inf, 0.1), "drag": (1.0, 0.1)}}, "not a finite number"),
         ({"predict": {"pressure_bar": [90.0]}}, "column is missing"),
-        ({"table": rows().assign(preload=1.0)}, 'units={"preload": "..."}'),
+        ({"table": rows().assign(preload=1.0), "reading": "pump_torque_Nm"}, 'units={"preload": "..."}'),
     ],
 )
 def test_bad_arguments_are_refused(change, message):

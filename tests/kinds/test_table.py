@@ -31,6 +31,7 @@ quantity = "drag"
 unit = "N"
 noise = { relative = 0.01 }
 """
+OF_FILMS = {'"table"': '"film"', "stiffness =": "# ", 'quantity = "drag"\nunit = "N"': 'quantity = "film_thickness_nm"'}
 
 
 def recording() -> pd.DataFrame:
@@ -95,7 +96,7 @@ def test_suggested_conditions_have_an_interpolated_simulation(tmp_path):
     names = np.array([str(g) == "A" for g in wanted["grease"]])
     exact = 2.0 + 3.0 * wanted["preload"] + 0.02 * wanted["oil_temperature_C"] * names
     inside = (wanted["preload"] >= 1.0) & (wanted["preload"] <= 5.0)
-    assert np.max(np.abs(simulated / exact - 1.0)[inside]) < 0.02
+    assert np.max(np.abs(simulated / exact - 1.0)[inside]) < 0.03
     assert set(raw_coordinates(Forward(case, wanted))) >= {"preload", "oil_temperature_C"}
 
 
@@ -119,7 +120,7 @@ def test_simulate_writes_the_simulation(tmp_path):
         (lambda f: f, {"sd = 0.2, ": ""}, "stiffness must be a relative standard deviation"),
         (lambda f: f, {"viscosity = 0.1": "viscosity = -0.1"}, "viscosity must be a relative standard deviation"),
         (lambda f: f, {'unit = "kN"': 'units = "kN"'}, "nearest known: 'unit'"),
-        (lambda f: f, {'"table"': '"film"', "stiffness =": "# "}, "has columns of its own"),
+        (lambda f: f, OF_FILMS, "has columns of its own"),
     ],
 )
 def test_bad_tables_are_refused(tmp_path, change, system, message):
