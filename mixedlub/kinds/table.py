@@ -25,10 +25,10 @@ from profiles.errors import InputError, nearest
 
 MOVED = f"{SIMULATED}_"
 """Start of the columns with an input of the simulation one standard deviation up."""
-NATIVE = (gear_pair, mesh_friction, disc, film, friction_history, friction_map, viscosity)
-KNOWN = {c.name: replace(c, required=False) for one in reversed(NATIVE) for c in one.KIND.columns}
+MODULES = (gear_pair, mesh_friction, disc, film, friction_history, friction_map, viscosity)
+KNOWN = {c.name: replace(c, required=False) for one in reversed(MODULES) for c in one.KIND.columns}
 """Columns of the other kinds, which need no section."""
-READINGS = {c.name: c for one in NATIVE for c in one.KIND.readings}
+READINGS = {c.name: c for one in MODULES for c in one.KIND.readings}
 RESULTS = ("base", "calibrated", "predicted", "low90", "high90", "mismatch_z", "validity", "surfaces")
 """Names of columns in results."""
 NO_UNIT = "-"
