@@ -32,6 +32,8 @@ READINGS = {c.name: c for one in MODULES for c in one.KIND.readings}
 RESULTS = ("base", "calibrated", "predicted", "low90", "high90", "mismatch_z", "validity", "surfaces")
 """Names of columns in results."""
 NO_UNIT = "-"
+ANY_CHANNEL = film.KIND.name
+"""Kind whose faults of the channel apply to readings that no other kind has; its own effects lack their inputs."""
 NOMINAL = "nominal_simulation"
 """Input of the chain: the simulation before calibration."""
 
@@ -66,7 +68,7 @@ def of_case(system: system_file.System, headers: Sequence[str]) -> Kind:
         direction=found.direction,
         is_history=found.is_history,
         filled=(SIMULATED, *(c.name for c in inputs)),
-        effects_of="" if place.kind is None else place.kind.name,
+        effects_of=ANY_CHANNEL if place.kind is None else place.kind.name,
         signed=place.kind is None,
         units={name: unit for name, unit in stated.items() if unit and unit != NO_UNIT},
     )
