@@ -11,19 +11,18 @@ from unicodedata import category
 from pydantic import (
     AfterValidator,
     SerializeAsAny,
-    ValidationError,
     ValidationInfo,
     create_model,
     field_validator,
     model_serializer,
     model_validator,
 )
-from pydantic_core import PydanticCustomError
 
 from mixedlub.schema.discovery import declared
 from mixedlub.schema.gear_file import gear_names, with_preset
 from mixedlub.schema.oil_file import STOCKS, Base, KnownCoefficient, oil_names, with_oil
 from mixedlub.schema.section import Float, Number, NumberOrName, Section, Whole, key, one_of, tables, with_ranges
+from mixedlub.schema.simulation_file import Condition, SimulationInput, simulation_input
 from mixedlub.schema.surface_file import SurfaceSection
 from profiles.errors import InputError
 
@@ -243,36 +242,6 @@ class Uncertainty(Section):
         return {name: sd for name, sd in self if sd > 0}
 
 
-class SimulationInput(Section):
-    """An uncertain input of the user's own simulation: a relative standard deviation, or a value with its own."""
-
-    relative: Number | None = key("standard deviation over the value; the logarithm is normal", None, ge=0.0)
-    value: Number | None = key("value in the simulation", None)
-    sd: Number | None = key("standard deviation, in the unit of the value", None, ge=0.0)
-    unit: str = key("unit of the value", "-")
-
-    @model_validator(mode="after")
-    def _one_form(self) -> SimulationInput:
-        given = (self.relative is not None, self.value is not None, self.sd is not None)
-        if given not in ((True, False, False), (False, True, True)):
-            raise ValueError("is a relative standard deviation, or { value = ..., sd = ... }")
-        return self
-
-    @property
-    def spread(self) -> float:
-        """Standard deviation, relative or in the unit of the value."""
-        return float(self.relative if self.sd is None else self.sd)  # type: ignore[arg-type]
-
-
-def _simulation_input(name: str, given: Any) -> SimulationInput:
-    """Uncertain input of a number, its relative standard deviation, or of a table."""
-    try:
-        return SimulationInput.model_validate(given if isinstance(given, Mapping) else {"relative": given})
-    except ValidationError:
-        rule = "must be a relative standard deviation from 0, or { value = ..., sd = ... }"
-        raise PydanticCustomError("simulation_input", "{name} {rule}", {"name": name, "rule": rule}) from None
-
-
 class SimulationUncertainty(Uncertainty):
     """Uncertain inputs of the user's own simulation, by their names in it."""
 
@@ -334,15 +303,6 @@ class SimulatedRecording(Recording):
     unit: str | None = key("unit of the reading and its simulation; left out: the unit at the end of its name", None)
 
 
-class Condition(Section):
-    unit: str | None = key(
-        'unit of the column, "-" for a pure number; left out: the unit at the end of its name, or a column of names',
-        None,
-        example="bar",
-    )
-    meaning: str = key("meaning of the column", "", example="pressure at the inlet")
-
-
 class RigFile(Section):
     """Tables on the rig common to cases and studies."""
 
@@ -400,7 +360,7 @@ class System(RigFile):
         """Inputs of any name for kinds whose columns depend on the case."""
         if not isinstance(given, Mapping) or not _has_own_columns(info.data.get("kind")):
             return given
-        return SimulationUncertainty(inputs={name: _simulation_input(name, one) for name, one in given.items()})
+        return SimulationUncertainty(inputs={name: simulation_input(name, one) for name, one in given.items()})
 
     @field_validator("conditions")
     @classmethod
