@@ -26,8 +26,8 @@ from profiles.errors import InputError, nearest
 MOVED = f"{SIMULATED}_"
 """Start of the columns with an input of the simulation one standard deviation up."""
 MODULES = (gear_pair, mesh_friction, disc, film, friction_history, friction_map, viscosity)
-KNOWN = {c.name: replace(c, required=False) for one in reversed(MODULES) for c in one.KIND.columns}
-"""Columns of the other kinds, which need no section."""
+KNOWN = {c.name: replace(c, above=-np.inf) for one in reversed(MODULES) for c in one.KIND.columns}
+"""Columns of the other kinds, which need no section; of either sign where the kind of the reading sets no bound."""
 READINGS = {c.name: c for one in MODULES for c in one.KIND.readings}
 RESULTS = ("base", "calibrated", "predicted", "low90", "high90", "mismatch_z", "validity", "surfaces")
 """Names of columns in results."""
@@ -42,10 +42,11 @@ def of_case(system: system_file.System, headers: Sequence[str]) -> Kind:
     """The kind of a case: conditions of its sections and headers, its reading, and the place of the reading."""
     quantity = system.recording.quantity
     _refuse_reserved(system, quantity)
-    declared = {name: _condition(name, one) for name, one in system.conditions.items()}
-    own = {name: c for name, c in KNOWN.items() if name in headers and name != quantity}
-    place = place_of(quantity, {*headers, *declared})
+    place = place_of(quantity, {*headers, *system.conditions})
     found = KIND if place.kind is None else place.kind
+    known = {**KNOWN, **({} if place.kind is None else {c.name: c for c in found.columns})}
+    declared = {name: _condition(name, one, known.get(name)) for name, one in system.conditions.items()}
+    own = {name: replace(c, required=False) for name, c in known.items() if name in headers and name != quantity}
     reading = READINGS.get(quantity) or Column(quantity, meaning="reading", words=())
     unit: str | None = getattr(system.recording, "unit", None)
     _refuse_other_unit(quantity, unit, "recording.unit")
@@ -74,10 +75,9 @@ def of_case(system: system_file.System, headers: Sequence[str]) -> Kind:
     )
 
 
-def _condition(name: str, section: system_file.Condition) -> Column:
+def _condition(name: str, section: system_file.Condition, known: Column | None) -> Column:
     """Column of a condition: a number with a unit, or a name."""
     _refuse_other_unit(name, section.unit, f"conditions.{name}.unit")
-    known = KNOWN.get(name)
     is_number = section.unit is not None or bool(unit_of(name))
     found = known or Column(name, "number" if is_number else "name")
     return replace(found, required=True, meaning=section.meaning or found.meaning)
