@@ -260,7 +260,8 @@ def raw_coordinates(forward: Forward) -> dict[str, np.ndarray]:
         label = table[names[0].name].astype(str)
         for column in names[1:]:
             label = np.char.add(np.char.add(label, " / "), table[column.name].astype(str))
-        found["surfaces"] = label
+        are_surfaces = any("surface" in column.name for column in names)
+        found["surfaces" if are_surfaces else "_and_".join(column.name for column in names)] = label
     if "m0" in forward.inputs:
         found["composite_roughness_um"] = np.broadcast_to(np.sqrt(forward.inputs["m0"])[:, 0] * 1e6, len(table))
     if "sequence" in table:
