@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mixedlub.api.own_simulation import Simulation, case_with_simulation
 from mixedlub.case.folder import Case, conditions_for, read_case, with_hypotheses
 from mixedlub.case.simulation import simulate as simulated
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnosis_of
@@ -19,6 +20,7 @@ from mixedlub.diagnosis.report.improved import improved_case
 from mixedlub.diagnosis.report.text.answer import as_json, predictions
 from mixedlub.diagnosis.report.text.headline import chance
 from mixedlub.schema.findings import as_texts, collected, gravest_first, listed, warn_of
+from mixedlub.schema.units import stated_units
 from mixedlub.study.plan import counted
 from profiles.errors import InputError, as_path, nearest
 
@@ -143,7 +145,8 @@ class Answer:
         axes.axhspan(-2.0, 2.0, color="0.93", lw=0)
         axes.plot(at, before, "o", ms=3, color="0.6", label=f"calibrated base model, rms {_rms(before):.2f}")
         axes.plot(at, after, "o", ms=3, color="C0", label=f"with the answer, rms {_rms(after):.2f}")
-        axes.set_xlabel(axis_label(over) if over != "run" else "run")
+        with stated_units(self.diagnosis.case.kind.units):
+            axes.set_xlabel(axis_label(over) if over != "run" else "run")
         axes.set_ylabel("residual (standard deviations of the noise)")
         axes.legend()
         return axes
@@ -160,19 +163,27 @@ def _rms(values: np.ndarray) -> float:
 
 
 def diagnose(
-    case: Case | str | PathLike[str],
+    case: Case | str | PathLike[str] | Frame,
     predict: Frame | None = None,
     *,
     exclude: str | Sequence[str] = (),
     level: float = 0.01,
     hypotheses: Sequence[str | PathLike[str]] = (),
+    simulate: Simulation | None = None,
+    reading: str | None = None,
+    units: Mapping[str, str] | None = None,
+    noise: Mapping[str, float] | None = None,
+    inputs: Mapping[str, tuple[float, float]] | None = None,
+    system: Mapping[str, Any] | None = None,
+    folder: str | PathLike[str] | None = None,
+    name: str | None = None,
 ) -> Answer:
-    """Diagnose which physics is missing in the base model of a recorded case.
+    """Diagnose which physics is missing in the base model of a recorded case, or in the user's own simulation.
 
     Parameters
     ----------
-    case : Case, str or PathLike
-        A case of ``ml.case``, or its folder.
+    case : Case, str, PathLike, DataFrame or mapping of str to array_like
+        A case of ``ml.case``, or its folder; with ``simulate`` a table of conditions and readings.
     predict : DataFrame or mapping of str to array_like, optional
         Conditions of the predictions, by column; default: the conditions of the case.
     exclude : str or sequence of str, optional
@@ -181,6 +192,22 @@ def diagnose(
         Significance level of the mismatch test.
     hypotheses : sequence of str or PathLike, optional
         Law files that compete with the catalogue, beside those in the folder ``hypotheses`` of the case.
+    simulate : callable, optional
+        ``simulate(conditions, **inputs)``: simulated readings for a DataFrame of conditions, or for a dict of one row.
+    reading : str, optional
+        Column of the reading; default: the only column with the name of a known reading, else the last column.
+    units : mapping of str to str, optional
+        Units of columns without a unit in their name; ``"-"`` for pure numbers.
+    noise : mapping, optional
+        ``relative`` and ``absolute`` standard deviation of a reading; default: estimated.
+    inputs : mapping of str to (float, float), optional
+        Value and standard deviation of uncertain inputs, passed to ``simulate`` by their names.
+    system : mapping, optional
+        Further sections of `system.toml`, such as ``gears`` and ``lubricant``.
+    folder : str or PathLike, optional
+        Folder in which the case is written; default: it stays in memory.
+    name : str, optional
+        Name of the case.
 
     Returns
     -------
@@ -201,8 +228,20 @@ def diagnose(
     >>> drive = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm", "noise": {"relative": 0.01}}}
     >>> ml.diagnose(ml.case.case_of(drive, rows)).verdict
     ['stribeck']
+    >>> own = lambda at, dry: dry + 2e-3 * at["speed_rpm"]
+    >>> ml.diagnose(rows, simulate=own, inputs={"dry": (0.5, 0.1)}, noise={"relative": 0.01}).verdict
+    ['stribeck']
     """
-    found = with_hypotheses(_case(case, "diagnose"), [as_path(one, "hypotheses") for one in hypotheses])
+    rivals = [as_path(one, "hypotheses") for one in hypotheses]
+    of_table: dict[str, Any] = {"reading": reading, "units": units, "noise": noise, "inputs": inputs}
+    of_table |= {"system": system, "folder": folder, "name": name}
+    given = {option: value for option, value in of_table.items() if value is not None}
+    if simulate is not None:
+        own = with_hypotheses(case_with_simulation(case, simulate, predict, **given), rivals)
+        return Answer(diagnosis_of(own, own.conditions, _ids(exclude), level))
+    if given:
+        raise InputError("acts only with simulate; leave it out", where=f"diagnose: {next(iter(given))}")
+    found = with_hypotheses(_case(case, "diagnose"), rivals)
     asked = found.conditions if predict is None else conditions_for(found, predict)
     return Answer(diagnosis_of(found, asked, _ids(exclude), level))
 
@@ -246,7 +285,7 @@ def simulate(case: Case | str | PathLike[str], at: Frame | None = None) -> pd.Da
     return readings
 
 
-def _case(case: Case | str | PathLike[str], where: str) -> Case:
+def _case(case: Any, where: str) -> Case:
     """Return the case, read from a folder if necessary."""
     return case if isinstance(case, Case) else read_case(as_path(case, where))
 

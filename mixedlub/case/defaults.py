@@ -53,7 +53,7 @@ def oil_taken(section: system_file.Lubricant | None) -> dict[str, str]:
 def broadly_fitted(system: system_file.System, columns: Mapping[str, np.ndarray]) -> set[str]:
     """Unspecified inputs, fitted to a recording of these columns with a broad prior. Empty for an invalid case; reading
     the case reports that error."""
-    rules = kind_of(system.kind)
+    rules = kind_of(system.kind).of_case(system, columns)
     if any(column.required and column.name not in columns for column in rules.columns):
         return set()
     try:
@@ -85,7 +85,7 @@ def _not_fitted(forward: Forward | None) -> set[str]:
     """Inputs of the rows, without unspecified inputs that are fitted to the readings."""
     if forward is None:
         return set()
-    stated = {key for key, sd in forward.case.system.uncertainty.model_dump().items() if sd > 0}
+    stated = set(forward.case.system.uncertainty.stated)
     return set(forward.inputs) - ({entry.name for entry in forward.calibrations} - stated)
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import csv
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -116,8 +118,36 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
         raise InputError(f"no such file{other_recordings(folder)}", where=str(path))
 
     hypotheses = sorted((folder / HYPOTHESES).glob("*.toml"))
-    found = _checked(folder.resolve().name, folder, system, str(file), table, hypotheses)
+    headers = header_of(folder, ("recordings", "conditions"))
+    found = _checked(folder.resolve().name, folder, system, str(file), table, headers, hypotheses)
     return replace(found, notes=(*read_import_file(folder), *found.notes))
+
+
+@contextmanager
+def _in_file(where: str) -> Iterator[None]:
+    """Add the file to errors about its keys."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(error.rule, where=f"{where}: {error.where}", value=error.value) from None
+
+
+def check_rows(found: Kind, system: system_file.System, folder: Path, table: Table, recorded: Table | None) -> None:
+    """Raise the error of the kind about the rows of a table, with the folder."""
+    try:
+        found.check(system, table, recorded)
+    except InputError as error:
+        raise InputError(error.rule, where=str(folder / error.where), value=error.value) from None
+
+
+def header_of(folder: Path, names: Sequence[str]) -> list[str]:
+    """Columns of the first of these tables that is a text file; none where its reading will report an error."""
+    for name in names:
+        path = folder / f"{name}.csv"
+        if path.is_file():
+            with path.open(encoding="utf-8-sig", errors="replace") as lines:
+                return [cell.strip() for cell in next(csv.reader(lines), [])]
+    return []
 
 
 def other_recordings(folder: Path) -> str:
@@ -161,7 +191,8 @@ def case_of(
         return table_of(frames[which], columns, which) if which in frames else None
 
     parsed = toml_file.parse(system_file.System, {"schema": "mixedlub-case/1", **system}, name)
-    return _checked(name, Path(folder), parsed, name, table, hypotheses)
+    headers = list(map(str, frames["recordings"].columns))
+    return _checked(name, Path(folder), parsed, name, table, headers, hypotheses)
 
 
 def _checked(
@@ -170,10 +201,14 @@ def _checked(
     system: system_file.System,
     where: str,
     table: Callable[[str, tuple[Column, ...]], Table | None],
+    headers: Sequence[str],
     hypotheses: Sequence[str | Path],
 ) -> Case:
-    """The checked case of a parsed system; ``table`` returns its recordings or conditions for the allowed columns."""
-    found = kind(system.kind)
+    """The checked case of a parsed system; ``table`` returns its recordings or conditions for the allowed columns, and
+    ``headers`` are the columns of its recordings."""
+    named = kind(system.kind)
+    with _in_file(where):
+        found = named.of_case(system, headers)
     for section in found.sections:
         if not getattr(system, section):
             raise InputError(f"a case of kind {system.kind!r} needs the section [{section}]", where=where)
@@ -188,10 +223,13 @@ def _checked(
         recordings = table("recordings", _columns(found, system, True))
         if recordings is not None:
             _refuse_stuck(recordings, quantity, folder)
+            check_rows(found, system, folder, recordings, None)
             recordings = _with_filled_sds(recordings, f"{quantity}_sd")
         _report_missing_check(system.recording.check, recordings)
         conditions = table("conditions", _columns(found, system, False))
         conditions = None if conditions is None else _with_filled_sds(conditions, f"{quantity}_sd")
+        if conditions is not None and recordings is not None:
+            check_rows(found, system, folder, conditions, recordings)
     effects, laws = by_id(system.effects, folder, _numbers(found))
     case = Case(
         name,
@@ -223,7 +261,10 @@ def _numbers(found: Kind) -> list[str]:
 def read_conditions(case: Case, path: Path) -> Table:
     """Another table of conditions for the case; without a column ``run``, rows are numbered after the recorded runs."""
     columns = _columns(case.kind, case.system, False)
-    return _with_filled_sds(read_table(path, columns, first_run=_free_run(case), imported=True), f"{case.quantity}_sd")
+    found = read_table(path, columns, first_run=_free_run(case), imported=True)
+    if case.recordings is not None:
+        check_rows(case.kind, case.system, path.parent, found, case.recordings)
+    return _with_filled_sds(found, f"{case.quantity}_sd")
 
 
 def conditions_for(case: Case, at: Frame) -> Table:
@@ -233,6 +274,8 @@ def conditions_for(case: Case, at: Frame) -> Table:
         first = _free_run(case)
         frame = frame.assign(run=np.arange(first, first + len(frame)))
     wanted = table_of(frame, _columns(case.kind, case.system, False), "conditions")
+    if case.recordings is not None:
+        check_rows(case.kind, case.system, case.folder, wanted, case.recordings)
     refuse_used_runs(case, wanted, Path(wanted.source))
     return wanted
 

@@ -78,11 +78,11 @@ class Forward:
             reading_scale = float(np.median(np.abs(self._rows(plain["reading"])))) / self.scale
         self.inputs["reading_scale"] = reading_scale
         self.inputs |= {name: plain[quantity] for quantity, name in case.kind.base_inputs.items()}
-        self.catalogue = MappingProxyType({**known_in(case.kind.name), **case.laws})
+        self.catalogue = MappingProxyType({**known_in(case.kind.effect_kind), **case.laws})
         for law in laws.values():
             check_usable(law, self.chain, self.inputs, "reading", case.kind.name.replace("_", " "))
         self.known = known_effects(
-            case.system.effects, case.kind.name, self.chain, tuple(self.inputs), "reading", case.laws
+            case.system.effects, case.kind.effect_kind, self.chain, tuple(self.inputs), "reading", case.laws
         )
         self.uncertain_laws = tuple(
             e for e in self.catalogue.values() if any(p.base_sd for p in e.parameters) and self._offers(e)
@@ -195,7 +195,7 @@ class Forward:
         """Whether an effect applies to these rows beside those that the case names."""
         return (
             e.id not in self.known.values
-            and available(e, self.chain, tuple(self.inputs), "reading", self.case.kind.name)
+            and available(e, self.chain, tuple(self.inputs), "reading", self.case.kind.effect_kind)
             and (not e.needs_variation_in or varies(self.inputs[e.needs_variation_in]))
             and self._within(e)
         )

@@ -54,15 +54,15 @@ def case(name: str) -> Case:
         "kind": name,
         **found.standard.sections,
         "surfaces": surfaces if "surfaces" in conditions(name) else {},
-        "uncertainty": UNCERTAINTY,
+        "uncertainty": found.standard.sections.get("uncertainty", UNCERTAINTY),
         "recording": {
             "quantity": found.quantities[0],
             "noise": {"relative": RELATIVE_NOISE, "absolute": found.standard.noise},
         },
     }
     parsed = toml_file.parse(system_file.System, system, f"standard {name}")
-    here = Path(".")
-    return Case(f"standard_{name}", here, parsed, found, Rig(parsed, here), None, None, ())
+    here, headers = Path("."), [column for column, _ in conditions(name).values()]
+    return Case(f"standard_{name}", here, parsed, found.of_case(parsed, headers), Rig(parsed, here), None, None, ())
 
 
 @cache

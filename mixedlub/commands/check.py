@@ -30,10 +30,12 @@ def command(case: Annotated[Path, typer.Argument(metavar="CASE", help="Case fold
     Data present, data missing, and defaults used.
     """
     from mixedlub.case.folder import read_case
+    from mixedlub.schema.units import stated_units
 
     with input_errors_from(str(case)):
         found = read_case(case_folder(case), need_recordings=False)
-        lines = list(understood(found))
+        with stated_units(found.kind.units):
+            lines = list(understood(found))
     print_findings(found.notes)
     for line in lines:
         echo(line)
@@ -149,7 +151,9 @@ def _levels(table: Table, column: str) -> str:
 
 
 def _uncertain(case: Case, movable: Sequence[Calibration]) -> Iterator[str]:
-    stated = {k: v for k, v in case.system.uncertainty.model_dump().items() if v > 0}
+    stated = case.system.uncertainty.stated
+    if case.kind.by_case is not None:
+        stated = {name: sd for name, sd in stated.items() if name in {c.name for c in movable}}
     stated |= _stated_of_effects(case)
     words = ", ".join(f"{k.replace('_', ' ')} ({v:g})" for k, v in stated.items())
     others = [c for c in movable if c.name not in stated]

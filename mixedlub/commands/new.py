@@ -21,9 +21,8 @@ NAME = "new"
 EXAMPLE = "mixedlub new study --out out/my_study"
 
 STUDY, FACTORS, CASE, EHL, GEAR, EFFICIENCY = "study", "factors", "case", "ehl", "gear", "efficiency"
-LAW = "law"
-FRICTION_LAWS = "friction-laws"
-TEMPLATES = (STUDY, FACTORS, CASE, EHL, GEAR, EFFICIENCY, FRICTION_LAWS, LAW)
+FRICTION_LAWS, TABLE, LAW = "friction-laws", "table", "law"
+TEMPLATES = (STUDY, FACTORS, CASE, TABLE, EHL, GEAR, EFFICIENCY, FRICTION_LAWS, LAW)
 KIND = "gear_pair"
 """Default kind of a case."""
 ROWS = 40
@@ -45,7 +44,8 @@ def command(
         str,
         typer.Argument(
             metavar="WHAT",
-            help="study, factors, case, ehl, gear, efficiency, friction-laws, law, or a method of `mixedlub evaluate`.",
+            help="study, factors, case, table (a case with your own simulation), ehl, gear, efficiency, friction-laws, "
+            "law, or a method of `mixedlub evaluate`.",
         ),
     ],
     kind: Annotated[
@@ -68,6 +68,9 @@ def command(
             raise InputError(f"no such template; {nearest(what, known)}", where="what", value=what)
     if what != CASE and kind is not None:
         raise InputError("only a case has a kind", where="--kind", value=kind)
+    named = what
+    if what == TABLE:
+        what, kind = CASE, TABLE
     makers = {
         STUDY: study_files,
         FACTORS: factor_files,
@@ -84,7 +87,7 @@ def command(
     for name in files:
         if out is not None and (out / name).exists():
             raise InputError("exists, and a template would replace it; name another --out", where=str(out / name))
-    folder = output_folder(out, NAME, what)
+    folder = output_folder(out, NAME, named)
     with writing(folder) as aside:
         for name, text in files.items():
             (aside / name).write_text(text, encoding="utf-8")
@@ -293,6 +296,9 @@ def _keys(table: FileTable, given: Given, *, optional: bool = True) -> Iterator[
     from mixedlub.schema.toml_file import default_of, toml_value
 
     keys = [key for key in table.fields if section_in(key.type) is None or isinstance(key.example, Mapping)]
+    own = {key.name for key in keys}
+    if table.name == "uncertainty":
+        yield from (f"{name} = {toml_value(value)}" for name, value in given.items() if name not in own)
     for key in sorted(keys, key=lambda key: key.name not in given):
         left_out = f"; {default_of(key)} where left out" if default_of(key) else ""
         if key.name in given:

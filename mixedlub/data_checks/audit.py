@@ -178,7 +178,7 @@ def _scarce(y: np.ndarray) -> list[Finding]:
 
 def _more_than_put_in(case: Case, rows: Table, y: np.ndarray) -> list[Finding]:
     """Gear losses above the input power at the pinion."""
-    if case.quantity != "power_loss_W":
+    if case.quantity != "power_loss_W" or not {"torque_Nm", "speed_rpm"} <= rows.columns.keys():
         return []
     put_in = rows["torque_Nm"] * rows["speed_rpm"] * np.pi / 30.0
     above = int(np.count_nonzero((y > put_in) & ~gears_out(rows)))

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub.case.folder import Case, read_case, read_conditions
+from mixedlub.case.folder import Case, header_of, read_case, read_conditions
 from mixedlub.kinds import kind as kind_of
 from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file
@@ -48,7 +48,8 @@ def _whole(folder: Path) -> str:
 
 
 def _parts(folder: Path, system: system_file.System) -> str:
-    rig = Rig(system, folder, kind_of(system.kind).unread_of_oil)
+    kind = kind_of(system.kind).of_case(system, header_of(folder, ("recordings",)))
+    rig = Rig(system, folder, kind.unread_of_oil)
     list(rig.parts())
-    read_conditions(Case("", folder, system, kind_of(system.kind), rig, None, None, ()), folder / "recordings.csv")
+    read_conditions(Case("", folder, system, kind, rig, None, None, ()), folder / "recordings.csv")
     return ""

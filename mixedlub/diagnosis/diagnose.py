@@ -49,6 +49,7 @@ from mixedlub.effects import find
 from mixedlub.recording.readings import readings_of, rows_of
 from mixedlub.schema.findings import Finding, collected, finding
 from mixedlub.schema.table import Table
+from mixedlub.schema.units import stated_units
 from profiles.errors import InputError
 
 
@@ -147,6 +148,13 @@ def diagnosis_of(
     progress: Progress = lambda text: None,
 ) -> Diagnosis:
     """Diagnose a case and predict the ``requested`` conditions."""
+    with stated_units(case.kind.units):
+        return _diagnosis_of(case, requested, exclude, level, progress)
+
+
+def _diagnosis_of(
+    case: Case, requested: Table | None, exclude: Sequence[str], level: float, progress: Progress
+) -> Diagnosis:
     find(list(exclude), "exclude", case.laws)
     _refuse_level(level)
     rows = rows_of(case)

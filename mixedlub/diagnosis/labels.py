@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from functools import wraps
+from typing import Any, Concatenate, ParamSpec, TypeVar
 
 from mixedlub.diagnosis.settings.report import COLDEST
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.recording.set_points import one_point
-from mixedlub.schema.units import unit_of, without_unit
+from mixedlub.schema.units import stated_units, unit_of, without_unit
+
+P = ParamSpec("P")
+R = TypeVar("R")
 
 STAGE_WORDS = {
     "film": "the oil film",
@@ -21,6 +25,17 @@ STAGE_WORDS = {
     "law": "a law of the base model, in place of which another fits",
     "measurement": "the instrument",
 }
+
+
+def in_units_of_case(function: Callable[Concatenate[Any, P], R]) -> Callable[Concatenate[Any, P], R]:
+    """Function of a diagnosis, whose labels have the units that its case states."""
+
+    @wraps(function)
+    def labelled(d: Any, *args: P.args, **kwargs: P.kwargs) -> R:
+        with stated_units(d.case.kind.units):
+            return function(d, *args, **kwargs)
+
+    return labelled
 
 
 def words_of(column: str) -> str:

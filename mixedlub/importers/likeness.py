@@ -13,7 +13,7 @@ from mixedlub.importers.base import Question
 from mixedlub.importers.text_table import Cells, is_numeric, values_of
 from mixedlub.importers.time_base import TIME, counted
 from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, WEIGHED, Target, family, is_kinematic, target_of
-from mixedlub.kinds import KINDS
+from mixedlub.kinds import NATIVE
 from mixedlub.kinds import kind as kind_of
 from mixedlub.running.shell import quoted
 from mixedlub.schema.cells import is_missing
@@ -85,7 +85,7 @@ def likely_headers(columns: Iterable[str], cells: Cells) -> dict[str, str]:
 
 def likely_kind(cells: Cells) -> str:
     """Kind with the best match of reading and needed columns; kinds without their reading come last."""
-    return max(KINDS, key=lambda name: _share(name, cells))
+    return max(NATIVE, key=lambda name: _share(name, cells))
 
 
 def _share(name: str, cells: Cells) -> tuple[bool, float, int]:

@@ -35,7 +35,7 @@ from mixedlub.importers.text_table import (
 from mixedlub.importers.time_base import DATES, PACE_KEYS, TIME, continued, date_order, in_seconds, target_in
 from mixedlub.importers.two_forces import COEFFICIENT, over_load
 from mixedlub.importers.vocabulary import convert
-from mixedlub.kinds import KINDS, Kind
+from mixedlub.kinds import KINDS, NATIVE, Kind
 from mixedlub.kinds import kind as kind_of
 from mixedlub.running.shell import quoted
 from mixedlub.schema.cells import is_number
@@ -44,6 +44,10 @@ from mixedlub.schema.table import Column
 from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import unit_of
 from profiles.errors import InputError, nearest
+
+OWN_COLUMNS = (
+    "has columns of its own, so nothing is recognised: save the table as recordings.csv of a case of this kind"
+)
 
 
 def matches(text: str) -> bool:
@@ -57,8 +61,9 @@ def draft(file: InputFile, answers: Answers) -> Draft:
     While kind or quantity is open, the questions for the likely choice are included.
     """
     kind, name = answers.get("kind"), file.name
-    if kind is not None and kind not in KINDS:
-        raise InputError(f"no such kind; {nearest(str(kind), KINDS)}", where="kind", value=kind)
+    if kind is not None and kind not in NATIVE:
+        rule = f"no such kind; {nearest(str(kind), NATIVE)}" if kind not in KINDS else OWN_COLUMNS
+        raise InputError(rule, where="kind", value=kind)
     _refuse_unknown(kind, answers)
     sheet, selection_notes = selected_rows(file.table(_decimal(answers)), answers)
     sheet, speed_notes = with_speed(sheet, answers)
@@ -134,7 +139,7 @@ def _quantity(likely: Kind, cells: Cells, answers: Answers) -> tuple[str, list[Q
         raise InputError(rule, where="recording.quantity", value=quantity)
     questions = []
     if kind is None:
-        questions.append(Question("kind", "Kind of recording", toml_value(likely.name), options=KINDS, offered=True))
+        questions.append(Question("kind", "Kind of recording", toml_value(likely.name), options=NATIVE, offered=True))
     if quantity is not None:
         return str(quantity), questions
     quantity = _likely_quantity(likely, cells)
@@ -180,7 +185,7 @@ def _pooled(free: Cells, conditions: Collection[np.ndarray], file: str) -> Itera
 
 
 def _refuse_unknown(kind: str | None, answers: Answers) -> None:
-    kinds = [kind_of(k) for k in ([kind] if kind else KINDS)]
+    kinds = [kind_of(k) for k in ([kind] if kind else NATIVE)]
     columns = {c.name: c for k in kinds for q in k.quantities for c in wanted(k, q, answers)}
     values = (key for k in kinds for key in value_keys(k))
     refuse_unknown(

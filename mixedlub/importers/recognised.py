@@ -12,7 +12,7 @@ from mixedlub.importers.base import Answers
 from mixedlub.importers.kinematic import VISCOSITY
 from mixedlub.importers.likeness import likely_headers, likeness_of_reading
 from mixedlub.importers.text_table import Cells
-from mixedlub.kinds import KINDS
+from mixedlub.kinds import NATIVE
 from mixedlub.kinds import kind as kind_of
 from mixedlub.schema.findings import listed
 from mixedlub.schema.units import words_of
@@ -27,7 +27,7 @@ HEADERS_SHOWN = 8
 def refuse_unrecognised(cells: Cells, name: str, answers: Answers) -> None:
     """Raise an error if no column may be the reading of any kind, unless an answer names a reading."""
     readings: dict[str, list[str]] = {}
-    for kind in KINDS:
+    for kind in NATIVE:
         for quantity in kind_of(kind).quantities:
             readings.setdefault(quantity, []).append(kind)
     if any(COLUMNS + quantity in answers for quantity in readings):

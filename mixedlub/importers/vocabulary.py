@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.kinds import KINDS, kind
+from mixedlub.kinds import NATIVE, kind
 from mixedlub.schema.table import BOOKKEEPING
 from mixedlub.schema.units import change_to, fits, is_unit, open_units, read_as, rounded, units_of, words_of
 from profiles.errors import InputError
@@ -26,7 +26,7 @@ class Target:
 
 
 _COLUMNS = {
-    c.name: c for k in map(kind, KINDS) for c in (*BOOKKEEPING, *k.columns, *k.instrument_channels, *k.readings)
+    c.name: c for k in map(kind, NATIVE) for c in (*BOOKKEEPING, *k.columns, *k.instrument_channels, *k.readings)
 }
 TARGETS = tuple(Target(c.name, read_as(c.name), c.words, c.hints) for c in _COLUMNS.values() if c.words)
 BY_NAME = {t.name: t for t in TARGETS}

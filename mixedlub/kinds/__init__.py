@@ -22,5 +22,7 @@ def _sorted() -> dict[str, Kind]:
 _KINDS = _sorted()
 KINDS = tuple(_KINDS)
 """Names of the kinds of this package and of plug-ins (entry points ``mixedlub.kinds``)."""
+NATIVE = tuple(name for name, one in _KINDS.items() if one.by_case is None)
+"""Names of the kinds with laws of this package, and with the same columns in every case, which an import recognises."""
 
-__all__ = ["KINDS", "Kind", "kind"]
+__all__ = ["KINDS", "NATIVE", "Kind", "kind"]

@@ -67,7 +67,7 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
         **oil.inputs(temperature),
         **bookkeeping_inputs(system, table),
         **programme(table, recorded),
-        **_orders(table, recorded),
+        **orders(table, recorded),
         **_middle(oil, recorded),
         "oil_temperature": temperature,
     }
@@ -85,7 +85,7 @@ def _middle(oil: Lubricant, recorded: Table) -> Inputs:
     }
 
 
-def _orders(table: Table, recorded: Table) -> Inputs:
+def orders(table: Table, recorded: Table) -> Inputs:
     """Interference orders, where they vary in the recording; rows without one have the lowest."""
     if "fringe_order" not in recorded or np.ptp(recorded["fringe_order"]) == 0:
         return {}

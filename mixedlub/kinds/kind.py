@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -28,7 +28,7 @@ MIXED_FRICTION = (
     "asperities, friction of film and asperities weighted by that ratio (Tallian)"
 )
 """The laws that the base models of friction share, from the film to the friction coefficient."""
-SUBJECTS = ("gears", "contact", "drive", "oil")
+SUBJECTS = ("gears", "contact", "drive", "oil", "simulation")
 """Subjects of recordings, in the order in which kinds are listed."""
 
 
@@ -50,7 +50,12 @@ class Kind:
     read as columns, but not test conditions. ``fill_channels(table, recorded)`` adds them, predicted, to rows without a
     recording. ``base_inputs``: quantities of the base model before calibration, and their names in effects.
     ``column_limits(system)``: lowest and highest values of columns on this rig. ``direction(table)``: signed speed of
-    each row, for kinds with readings that change sign with it.
+    each row, for kinds with readings that change sign with it. ``by_case(system, headers)``: the kind of a case, where
+    the columns depend on it. ``effects_of``: name of the kind whose effects apply, if not its own.
+    ``signed``: readings of either sign. ``units``: units of columns without a unit in their name.
+    ``filled``: channels that follow from the conditions, which ``fill_channels`` predicts at others.
+    ``shown``: columns in the reference of the format, where they depend on the case.
+    ``check(system, table, recorded)``: raises an error for values that only the kind can judge.
 
     For imports and figures: ``either``: alternative columns. Histories (``is_history``) are plotted over time; logged
     series (``is_logged``) may be thinned. ``asks_for_oil``: the import requests the properties of the oil.
@@ -81,10 +86,31 @@ class Kind:
     is_history: bool = False
     is_logged: bool = False
     asks_for_oil: bool = False
+    by_case: Callable[[system_file.System, Sequence[str]], Kind] | None = None
+    effects_of: str = ""
+    signed: bool = False
+    units: Mapping[str, str] = field(default_factory=dict)
+    shown: tuple[Column, ...] = ()
+    filled: tuple[str, ...] = ()
+    check: Callable[[system_file.System, Table, Table | None], None] = lambda system, table, recorded: None
 
     def __post_init__(self) -> None:
         if self.subject not in SUBJECTS:
             raise TypeError(f"kind {self.name}: subject {self.subject!r} is none of {SUBJECTS}")
+
+    def of_case(self, system: system_file.System, headers: Iterable[str]) -> Kind:
+        """The kind with the columns of a case, whose table has these headers."""
+        return self if self.by_case is None else self.by_case(system, tuple(headers))
+
+    def with_condition(self, table: Table, name: str, values: np.ndarray) -> Table:
+        """The rows at other values of a condition, without the channels that follow from it."""
+        kept = {column: cells for column, cells in table.columns.items() if column not in self.filled}
+        return Table({**kept, name: values}, table.source)
+
+    @property
+    def effect_kind(self) -> str:
+        """Name of the kind by which effects are chosen."""
+        return self.effects_of or self.name
 
     @property
     def rank(self) -> tuple[int, str]:
@@ -103,7 +129,7 @@ class Kind:
 
     def is_unsigned(self, quantity: str) -> bool:
         """Whether readings are positive apart from noise; readings that depend on direction are signed."""
-        return quantity in self.quantities and self.direction is None and not self.logarithmic
+        return quantity in self.quantities and self.direction is None and not (self.logarithmic or self.signed)
 
 
 TEN_KELVIN = 10.0

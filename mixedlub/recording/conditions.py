@@ -207,7 +207,7 @@ def _is_negligible(name: str, forward: Forward) -> bool:
     table = forward.table
     if name not in table or not is_noisy_constant(name, table[name]):
         return False
-    steady = Table({**table.columns, name: np.full(len(table), np.median(table[name]))}, table.source)
+    steady = forward.case.kind.with_condition(table, name, np.full(len(table), np.median(table[name])))
     here, there = forward.predict(), Forward(forward.case, steady).predict()
     return 0.0 < float(np.max(np.abs(there - here))) <= NEGLIGIBLE_CHANGE * float(np.median(np.abs(here)))
 
@@ -260,7 +260,8 @@ def raw_coordinates(forward: Forward) -> dict[str, np.ndarray]:
         label = table[names[0].name].astype(str)
         for column in names[1:]:
             label = np.char.add(np.char.add(label, " / "), table[column.name].astype(str))
-        found["surfaces"] = label
+        are_surfaces = any("surface" in column.name for column in names)
+        found["surfaces" if are_surfaces else "_and_".join(column.name for column in names)] = label
     if "m0" in forward.inputs:
         found["composite_roughness_um"] = np.broadcast_to(np.sqrt(forward.inputs["m0"])[:, 0] * 1e6, len(table))
     if "sequence" in table:

@@ -16,11 +16,11 @@ from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Model
 from mixedlub.chain.plain_text import entry
 from mixedlub.effects import catalogue, find
-from mixedlub.kinds import KINDS, kind
+from mixedlub.kinds import NATIVE, kind
 from mixedlub.own_laws import ABSENT, ENDING, check_usable, columns_read, read_law
 from profiles.errors import InputError
 
-RIGS = KINDS
+RIGS = NATIVE
 """Standard rigs by kind, in the order of the pages."""
 SAME_SIGNATURE = 0.95
 """Cosine of two signatures above which the standard rig cannot distinguish the effects."""

@@ -115,6 +115,8 @@ def _kind(k: Kind) -> Iterator[str]:
 
 def kind_rows(k: Kind) -> list[Row]:
     """The columns of a kind, readings last."""
+    if k.shown:
+        return [_column(c, unit="any") for c in k.shown]
     one = "reading" if len(k.readings) == 1 else "one of these"
     rows = [_column(c) for c in (*k.columns, *k.instrument_channels)]
     return [*rows, *(_column(c, needed=one) for c in k.readings)]

@@ -33,6 +33,8 @@ def json_schema(name: str) -> dict[str, Any]:
     definitions = schema.pop("$defs", {})
     for own, section in ((schema, file), *((definitions.get(one.__name__, {}), one) for one in _sections(file))):
         _complete(own, section)
+    if name in KINDS and kind(name).by_case is not None:
+        _open(definitions)
     if name in KINDS:
         taken = _tables_of(name)
         nested = [key.name for key in FileTable(System, "", "").fields if section_in(key.type) is not None]
@@ -43,10 +45,21 @@ def json_schema(name: str) -> dict[str, Any]:
     return {"$schema": DIALECT, **schema, "title": title, "$defs": _used(schema, definitions)}
 
 
+def _open(definitions: dict[str, Any]) -> None:
+    """Inputs of any name, and a reading of any unit, in definitions of a kind whose columns depend on the case."""
+    keys = {"value": {"type": "number"}, "sd": {"type": "number", "minimum": 0}, "unit": {"type": "string"}}
+    value: dict[str, Any] = {"type": "object", "properties": keys, "required": ["value", "sd"]}
+    value["additionalProperties"] = False
+    uncertainty = definitions["Uncertainty"]
+    uncertainty["properties"] = {}
+    uncertainty["additionalProperties"] = {"anyOf": [{"type": "number", "minimum": 0}, value]}
+    definitions["Recording"]["properties"]["unit"] = {"type": "string", "description": "unit of the reading"}
+
+
 def _tables_of(name: str) -> set[str]:
     """Tables of `system.toml` accepted by a kind of case."""
     one = kind(name)
-    return {section.partition(".")[0] for section in (*EVERY_CASE, "effects", "conditions", *one.sections, *one.uses)}
+    return {section.partition(".")[0] for section in (*EVERY_CASE, "effects", *one.sections, *one.uses)}
 
 
 def _sections(file: type[Section]) -> Iterator[type[Section]]:

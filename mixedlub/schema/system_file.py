@@ -8,12 +8,21 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 from unicodedata import category
 
-from pydantic import AfterValidator, ValidationInfo, create_model, field_validator, model_validator
+from pydantic import (
+    AfterValidator,
+    SerializeAsAny,
+    ValidationInfo,
+    create_model,
+    field_validator,
+    model_serializer,
+    model_validator,
+)
 
 from mixedlub.schema.discovery import declared
 from mixedlub.schema.gear_file import gear_names, with_preset
 from mixedlub.schema.oil_file import STOCKS, Base, KnownCoefficient, oil_names, with_oil
 from mixedlub.schema.section import Float, Number, NumberOrName, Section, Whole, key, one_of, tables, with_ranges
+from mixedlub.schema.simulation_file import Condition, SimulationInput, simulation_input
 from mixedlub.schema.surface_file import SurfaceSection
 from profiles.errors import InputError
 
@@ -24,6 +33,11 @@ def _known_kind(name: str) -> str:
 
 def _known_quantity(name: str) -> str:
     return one_of(name, dict.fromkeys(quantity for kind in declared(*KINDS) for quantity in kind.quantities))
+
+
+def _has_own_columns(kind: object) -> bool:
+    """Whether the columns of a kind depend on the case."""
+    return any(one.name == kind and one.by_case is not None for one in declared(*KINDS))
 
 
 KINDS = ("mixedlub.kinds", "mixedlub.kinds", "KIND")
@@ -222,6 +236,28 @@ class Uncertainty(Section):
     eyring_stress: Number = key("of the Eyring stress, relative; one factor for the case", 0.0, example=0.15)
     roughness: Number = key("of Rq, relative; one factor for all surfaces", 0.0, example=0.04)
 
+    @property
+    def stated(self) -> dict[str, float]:
+        """Standard deviations above zero, by input."""
+        return {name: sd for name, sd in self if sd > 0}
+
+
+class SimulationUncertainty(Uncertainty):
+    """Uncertain inputs of the user's own simulation, by their names in it."""
+
+    inputs: dict[str, SimulationInput] = key("uncertain inputs by name", {})
+
+    @property
+    def stated(self) -> dict[str, float]:
+        return {name: one.spread for name, one in self.inputs.items() if one.spread > 0}
+
+    @model_serializer
+    def _flat(self) -> dict[str, Any]:
+        return {
+            name: one.model_dump(exclude_unset=True) if one.relative is None else one.relative
+            for name, one in self.inputs.items()
+        }
+
 
 class Noise(Section):
     relative: Number = key(
@@ -260,6 +296,13 @@ class Recording(Section):
     )
 
 
+class SimulatedRecording(Recording):
+    """Recording of any quantity, beside the user's own simulation."""
+
+    quantity: str = key("the column that the rig recorded, in any unit", example="power_loss_W")
+    unit: str | None = key("unit of the reading and its simulation; left out: the unit at the end of its name", None)
+
+
 class RigFile(Section):
     """Tables on the rig common to cases and studies."""
 
@@ -284,8 +327,13 @@ class System(RigFile):
     schema_: Literal["mixedlub-case/1"] = key("format of the file", example="mixedlub-case/1", alias="schema")
     kind: Annotated[str, AfterValidator(_known_kind)] = key("what was recorded", example="gear_pair")
     contact: Contact | None = key("two entries: first and second body", None)
-    uncertainty: Uncertainty = key("one standard deviation of what calibration may move; 0: known", Uncertainty())
-    recording: Recording = key("what was read, and how well")
+    uncertainty: SerializeAsAny[Uncertainty] = key(
+        "one standard deviation of what calibration may move; 0: known", Uncertainty()
+    )
+    recording: SerializeAsAny[Recording] = key("what was read, and how well")
+    conditions: dict[str, Condition] = key(
+        "a column of conditions beside the user's own simulation, by its name in the tables", {}
+    )
     effects: dict[str, dict[str, NumberOrName]] = key(
         "EFFECT = { PARAMETER = VALUE }: physics that the rig is known to have, part of the base model; law = NAME: "
         "a published law; parameters left out: as the first published law has them; PARAMETER_sd: standard deviation; "
@@ -298,6 +346,29 @@ class System(RigFile):
         {},
         example={"boundary_friction": 0.1},
     )
+
+    @field_validator("recording", mode="before")
+    @classmethod
+    def _of_any_quantity(cls, given: Any, info: ValidationInfo) -> Any:
+        """Recording of any quantity for kinds whose columns depend on the case."""
+        if not isinstance(given, Mapping) or not _has_own_columns(info.data.get("kind")):
+            return given
+        return SimulatedRecording.model_validate(given, context=info.context)
+
+    @field_validator("uncertainty", mode="before")
+    @classmethod
+    def _of_any_input(cls, given: Any, info: ValidationInfo) -> Any:
+        """Inputs of any name for kinds whose columns depend on the case."""
+        if not isinstance(given, Mapping) or not _has_own_columns(info.data.get("kind")):
+            return given
+        return SimulationUncertainty(inputs={name: simulation_input(name, one) for name, one in given.items()})
+
+    @field_validator("conditions")
+    @classmethod
+    def _only_beside_a_simulation(cls, given: dict[str, Condition], info: ValidationInfo) -> dict[str, Condition]:
+        if given and not _has_own_columns(info.data.get("kind")):
+            raise ValueError(f"a case of kind {info.data.get('kind')!r} has columns of its own; leave the section out")
+        return given
 
 
 with_ranges(System)

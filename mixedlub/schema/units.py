@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from fractions import Fraction
 from functools import cache
+from types import MappingProxyType
 
 import numpy as np
 
@@ -198,13 +201,31 @@ ENDINGS, UNITS, SLIPS = _read()
 numbers outside their range."""
 
 
+_STATED: ContextVar[Mapping[str, str]] = ContextVar("stated_units", default=MappingProxyType({}))
+
+
+@contextmanager
+def stated_units(units: Mapping[str, str]) -> Iterator[None]:
+    """Units of columns without a unit in their name, stated by a case, within a block.
+
+    >>> with stated_units({"preload": "N"}):
+    ...     unit_of("preload")
+    'N'
+    """
+    before = _STATED.set(units)
+    try:
+        yield
+    finally:
+        _STATED.reset(before)
+
+
 def unit_of(name: str) -> str:
-    """Unit at the end of a name, or empty.
+    """Unit at the end of a name, else as stated by the case at hand, or empty.
 
     >>> unit_of("oil_temperature_C"), unit_of("kinematic_viscosity_mm2_s"), unit_of("m4_per_um2"), unit_of("teeth")
     ('°C', 'mm²/s', '1/µm²', '')
     """
-    return ENDINGS.get(ending_of(name), "")
+    return ENDINGS.get(ending_of(name)) or _STATED.get().get(name, "")
 
 
 def without_unit(name: str) -> str:

@@ -11,7 +11,7 @@ import pytest
 
 from mixedlub.case import folder
 from mixedlub.cli import main
-from mixedlub.kinds import KINDS, kind
+from mixedlub.kinds import KINDS, NATIVE, kind
 from mixedlub.report.format_reference import kinds_text
 from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file, toml_file
@@ -43,7 +43,7 @@ def test_the_case_of_the_page_is_understood_and_only_its_range_is_doubted(tmp_pa
     assert [line.partition("recordings.csv: of 72 rows ")[0].strip() for line in doubts.splitlines()] == [""]
 
 
-@pytest.mark.parametrize("name", KINDS)
+@pytest.mark.parametrize("name", NATIVE)
 def test_every_column_of_a_kind_is_told(name):
     lines = kinds_text(name).splitlines()
     for quantity in kind(name).quantities:
@@ -152,7 +152,7 @@ def typical(column: Column) -> np.ndarray:
     return np.array([20.0, 21.0, 22.0]) if column.name == "roll_angle_deg" else np.array([0.5, 0.6, 0.7])
 
 
-@pytest.mark.parametrize("name", KINDS)
+@pytest.mark.parametrize("name", NATIVE)
 def test_the_sections_told_are_those_that_are_computed_with(name):
     found = kind(name)
     columns = {c.name: typical(c) for c in found.columns if c.name != "sliding_speed_m_s"}

@@ -5,7 +5,7 @@ import re
 import pytest
 
 from mixedlub.cli import main
-from mixedlub.kinds import KINDS, kind
+from mixedlub.kinds import KINDS, NATIVE, kind
 from mixedlub.schema import system_file
 from mixedlub.schema.section import tables
 from mixedlub.schema.toml_file import parse, read_toml
@@ -79,7 +79,7 @@ def test_all_that_a_study_leaves_out_is_valid(tmp_path):
             assert values.model_fields_set == set(table.model.model_fields) - {OF_YIELDING, IN_PLACE}
 
 
-@pytest.mark.parametrize("name", KINDS)
+@pytest.mark.parametrize("name", NATIVE)
 def test_all_that_a_case_leaves_out_is_valid(tmp_path, name):
     main(["new", "case", "--kind", name, "--out", str(tmp_path)])
     file = uncommented(tmp_path / "system.toml", *OF_A_TRACE, "check", "transverse_radius_mm", IN_PLACE)

@@ -14,9 +14,9 @@ from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Chain, Model
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.effects import catalogue
-from mixedlub.kinds import KINDS
+from mixedlub.kinds import NATIVE
 
-RIGS = KINDS
+RIGS = NATIVE
 LEVELS = {
     "gear_pair": {"load": (60.0, 140.0), "speed": (600.0, 2800.0), "oil_temperature": (45.0, 95.0)},
     "disc": {

@@ -11,7 +11,7 @@ from mixedlub.importers.input_file import InputFile
 from mixedlub.importers.likeness import likely_headers, likely_kind
 from mixedlub.importers.matching import wanted
 from mixedlub.importers.plain import draft
-from mixedlub.kinds import KINDS
+from mixedlub.kinds import NATIVE as KINDS
 from mixedlub.kinds import kind as kind_of
 from mixedlub.schema.toml_file import toml_value
 from profiles.errors import InputError

@@ -8,7 +8,7 @@ from mixedlub.importers.input_file import InputFile
 from mixedlub.importers.plain import draft
 from mixedlub.importers.text_table import read_sheet
 from mixedlub.importers.wizard import run
-from mixedlub.kinds import KINDS
+from mixedlub.kinds import NATIVE as KINDS
 from profiles.errors import InputError
 
 TWIN = "T1 (degC);T2 (degC);eta (mPa.s)\n40;41;30\n60;61;12\n100;99;5\n"

@@ -14,7 +14,6 @@ from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.settings.discrepancy import NO_INFLUENCE
 from mixedlub.diagnosis.settings.inference import FINITE_STEP
 from mixedlub.recording.conditions import clock_of
-from mixedlub.schema.table import Table
 
 READING, ADDITIVE = "reading", "addition"
 THERMAL_LAG = "late_temperature"
@@ -79,7 +78,7 @@ def thermal_lag(problem: Problem, base: Run) -> np.ndarray:
     before = np.maximum(np.searchsorted(clock, order) - 1, 0)
     gap = np.maximum(order - clock[before], np.median(np.diff(clock)))
     step = (warmth[before] - rows[name]) * np.median(np.diff(clock)) / gap
-    table = Table({**rows.columns, name: rows[name] + step}, rows.source)
+    table = problem.case.kind.with_condition(rows, name, rows[name] + step)
     lagged = Forward(problem.case, table, float(problem.forward.inputs["reading_scale"]))
     values = {name: move.value for name, move in base.applied.items()}
     return problem.transform(lagged.predict(values)) - base.prediction

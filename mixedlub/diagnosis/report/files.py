@@ -12,6 +12,7 @@ from mixedlub.case.folder import HYPOTHESES, Case
 from mixedlub.diagnosis.assessment.power_law import DescribedDiscrepancy, describe_discrepancy
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.explanation import DISCREPANCY
+from mixedlub.diagnosis.labels import in_units_of_case
 from mixedlub.diagnosis.report.improved import FILES, FOLDER, improved_files
 from mixedlub.diagnosis.report.text import words
 from mixedlub.diagnosis.report.text.answer import as_json, predictions
@@ -56,6 +57,7 @@ def case_origin(folder: Path) -> Origin:
     return origin_of(folder, ("system.toml", "recordings.csv", *laws))
 
 
+@in_units_of_case
 def files(d: Diagnosis) -> dict[str, str | bytes]:
     """Contents of all files of the answer, by file name."""
     extra = described(d)
@@ -92,6 +94,7 @@ def drawings(d: Diagnosis, extra: DescribedDiscrepancy | None) -> dict[str, str 
     return {"report.html": page, **{f"{FIGURES}/{name}.svg": XML + svg for name, svg in svgs.items()}}
 
 
+@in_units_of_case
 def report_text(d: Diagnosis) -> str:
     """The report as plain text."""
     return _text(d, words.sections(d, described(d)))

@@ -10,7 +10,7 @@ from importlib.resources import files
 
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import NOTHING
-from mixedlub.diagnosis.labels import number, words_of
+from mixedlub.diagnosis.labels import in_units_of_case, number, words_of
 from mixedlub.diagnosis.report.figures.charts import colour_of
 from mixedlub.diagnosis.report.figures.style import inline
 from mixedlub.diagnosis.report.text.headline import p_words, percent
@@ -88,6 +88,7 @@ class Picture:
     caption: str
 
 
+@in_units_of_case
 def render(d: Diagnosis, parts: Iterable[Section], drawings: Mapping[str, str]) -> str:
     """Render the HTML page; ``drawings`` are SVG by figure name."""
     from jinja2 import Environment, StrictUndefined

@@ -11,7 +11,7 @@ from mixedlub.diagnosis.assessment.identifiability import confusion
 from mixedlub.diagnosis.assessment.power_law import DescribedDiscrepancy
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import NOTHING
-from mixedlub.diagnosis.labels import axis_label, words_of
+from mixedlub.diagnosis.labels import axis_label, in_units_of_case, words_of
 from mixedlub.diagnosis.report.figures import charts, maps
 from mixedlub.diagnosis.report.figures.binning import together
 from mixedlub.diagnosis.report.figures.style import (
@@ -40,6 +40,7 @@ MOST_LEVELS, BINS = 12, 10
 """Most levels that a profile shows separately, and the number of bins for more."""
 
 
+@in_units_of_case
 def all_figures(d: Diagnosis, extra: DescribedDiscrepancy | None = None) -> dict[str, Figure]:
     """All figures with content for this case, by file name, in reading order."""
     alike = confusion(d.search)

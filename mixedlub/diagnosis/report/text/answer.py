@@ -14,6 +14,7 @@ from mixedlub.chain.priors import Prior
 from mixedlub.diagnosis.assessment.prediction import Refined
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING
+from mixedlub.diagnosis.labels import in_units_of_case
 from mixedlub.diagnosis.report.text.location_text import located
 from mixedlub.diagnosis.report.text.next_test_text import beyond
 from mixedlub.diagnosis.settings.inference import INTERVAL_ENDS, NINETY
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
+@in_units_of_case
 def as_json(d: Diagnosis) -> dict[str, Any]:
     """The answer by the schema mixedlub-diagnosis/1."""
     verdict = list(d.posterior.verdict.ids)

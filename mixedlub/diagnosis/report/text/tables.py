@@ -217,6 +217,7 @@ def _sources(case: Case) -> dict[str, str]:
     return {
         c.name: " (assumed)" if c.nominal == moved.nominal else " (from the readings)"
         for c, moved in zip(as_recorded, with_doubled, strict=True)
+        if c.name not in case.system.uncertainty.stated
     }
 
 

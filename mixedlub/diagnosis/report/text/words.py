@@ -17,6 +17,7 @@ from mixedlub.diagnosis.labels import (
     STAGE_WORDS,
     effect_words,
     explanation_words,
+    in_units_of_case,
     number,
     with_names,
     words_of,
@@ -70,6 +71,7 @@ class Section:
     items: tuple[str, ...] = ()
 
 
+@in_units_of_case
 def sections(d: Diagnosis, unnamed: DescribedDiscrepancy | None = None) -> list[Section]:
     """All sections of the answer with content."""
     resemblance, separating = alternatives(d, confusion(d.search))
