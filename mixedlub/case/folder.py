@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from mixedlub.case.import_file import read_import_file
+from mixedlub.case.reach import Reach, reach_of
 from mixedlub.gear import ROUNDED
 from mixedlub.kinds import Kind, kind
 from mixedlub.rig.rig import Rig
@@ -63,6 +64,7 @@ class Case:
     recordings: Table | None
     conditions: Table | None
     notes: tuple[Finding, ...]
+    reach: Reach = field(default_factory=Reach)
 
     def __repr__(self) -> str:
         tables = {"recordings": self.recordings, "conditions": self.conditions}
@@ -173,6 +175,7 @@ def _checked(
             where=f"{where}: recording.quantity",
             value=quantity,
         )
+    reach = reach_of(system, found, where)
     with collected() as notes:
         recordings = table("recordings", _columns(found, system, True))
         if recordings is not None:
@@ -181,9 +184,8 @@ def _checked(
         _report_missing_check(system.recording.check, recordings)
         conditions = table("conditions", _columns(found, system, False))
         conditions = None if conditions is None else _with_filled_sds(conditions, f"{quantity}_sd")
-    return Case(
-        name, folder, system, found, Rig(system, folder, found.unread_of_oil), recordings, conditions, tuple(notes)
-    )
+    rig = Rig(system, folder, found.unread_of_oil)
+    return Case(name, folder, system, found, rig, recordings, conditions, tuple(notes), reach)
 
 
 def read_conditions(case: Case, path: Path) -> Table:
