@@ -28,7 +28,7 @@ from mixedlub.diagnosis.assessment.answer_checks import (
 )
 from mixedlub.diagnosis.assessment.check_channel import Check, check_channel
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut
-from mixedlub.diagnosis.assessment.experiment_design import NextTest, next_tests
+from mixedlub.diagnosis.assessment.experiment_design import Batch, next_batch
 from mixedlub.diagnosis.assessment.extrapolation import beyond_recorded
 from mixedlub.diagnosis.assessment.location import Region, region, time_columns
 from mixedlub.diagnosis.assessment.mismatch_test import Mismatch, mismatch_against_null
@@ -67,7 +67,7 @@ class Diagnosis:
     region: Region
     heldout: HeldOut
     contained: tuple[Contained, ...]
-    next_tests: tuple[NextTest, ...]
+    batch: Batch
     warnings: tuple[Finding, ...]
     excluded: tuple[str, ...] = ()
     noise_stated: bool = True
@@ -187,7 +187,7 @@ def diagnosis_of(
     passing = [n for n in time_columns(search, decided.verdict) if n in rows and n not in varied]
     mismatch_region = region(rows, [*varied, *passing], np.where(outlier_chance > LIKELY, 0.0, recorded.mismatch_z))
     laws = contained(search, decided.verdict)
-    tests = next_tests(search, decided, refined, columns, varied)
+    batch = next_batch(search, decided, refined, columns, varied)
     warnings += _cautions(search, decided, heldout, refined, recorded.predicted, outlier_chance > LIKELY)
     all_warnings = tuple(warnings)
     return Diagnosis(
@@ -203,7 +203,7 @@ def diagnosis_of(
         mismatch_region,
         heldout,
         laws,
-        tests,
+        batch,
         all_warnings,
         left_out,
         noise_search.stated,

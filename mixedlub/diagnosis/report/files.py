@@ -12,7 +12,8 @@ from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.explanation import DISCREPANCY
 from mixedlub.diagnosis.report.improved import FILES, FOLDER, improved_files
 from mixedlub.diagnosis.report.text import words
-from mixedlub.diagnosis.report.text.answer import as_json, predictions
+from mixedlub.diagnosis.report.text.answer import as_json, next_tests_table, predictions
+from mixedlub.diagnosis.report.text.next_test_text import BATCH_FILE
 from mixedlub.diagnosis.search.search import Progress
 from mixedlub.diagnosis.settings.assessment import FALSE_ALARM_RATE
 from mixedlub.running.atomic import fill, writing
@@ -21,7 +22,7 @@ from mixedlub.running.parallel import shared_out
 from mixedlub.schema.toml_file import to_toml
 
 XML = '<?xml version="1.0" encoding="utf-8" standalone="no"?>\n'
-WRITTEN = ("diagnosis.json", "predictions.csv", "report.txt", "report.html")
+WRITTEN = ("diagnosis.json", "predictions.csv", BATCH_FILE, "report.txt", "report.html")
 """Files of every answer."""
 AS_USED = "case/system.toml"
 """File of the answer with the system as used."""
@@ -37,7 +38,8 @@ def diagnose(
 ) -> Diagnosis:
     """Diagnose a case and write the answer into ``out``.
 
-    The files are diagnosis.json, predictions.csv, report.txt, report.html, figures/, the system as used in case/, the
+    The files are diagnosis.json, predictions.csv, next_tests.csv, report.txt, report.html, figures/,
+    the system as used in case/, the
     case of the improved model in improved/, and origin.json, which names the case. They replace an earlier answer once
     all are written. The same case gives the same bytes.
     """
@@ -64,6 +66,7 @@ def texts(d: Diagnosis, extra: DescribedDiscrepancy | None) -> dict[str, str | b
     return {
         "diagnosis.json": json.dumps({**as_json(d), **_discrepancy_record(extra)}, indent=1, ensure_ascii=False) + "\n",
         "predictions.csv": predictions(d).to_csv(index=False, float_format="%.9g", lineterminator="\n"),
+        BATCH_FILE: next_tests_table(d).to_csv(index=False, lineterminator="\n"),
         "report.txt": _text(d, words.sections(d, extra)),
         AS_USED: to_toml(d.given.system.model_dump(by_alias=True, exclude_unset=True)),
         **improved_files(d),

@@ -11,12 +11,13 @@ from mixedlub.case.forward import Forward
 from mixedlub.case.simulation import conditions_of
 from mixedlub.case.validity import judge_rows
 from mixedlub.chain.priors import Prior
+from mixedlub.diagnosis.assessment.experiment_design import NextTest
 from mixedlub.diagnosis.assessment.prediction import Refined
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.report.text.location_text import located
-from mixedlub.diagnosis.report.text.next_test_text import beyond
+from mixedlub.diagnosis.report.text.next_test_text import needed_readings
 from mixedlub.diagnosis.settings.inference import INTERVAL_ENDS, NINETY
 from mixedlub.schema.findings import as_records
 from mixedlub.schema.table import Table
@@ -59,15 +60,9 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
             "folds": d.heldout.folds,
         },
         "outlier_runs": d.outlier_runs,
-        "next_tests": [
-            {
-                "conditions": t.conditions,
-                "separates": list(t.separates),
-                "expected_bits": t.expected_bits,
-                "text": "; ".join((*beyond(t.conditions, d.recorded.table), separating_text(t.separates))),
-            }
-            for t in d.next_tests
-        ],
+        "next_tests": [{**test_record(t), "readings": d.batch.readings} for t in d.batch.tests],
+        "next_batch": batch_record(d),
+        "tests_beyond": [{**test_record(t), "needs": list(t.needs)} for t in d.batch.beyond],
         "warnings": [str(one) for one in d.warnings],
         "findings": as_records(d.warnings),
         **({} if d.check is None else {"check": asdict(d.check)}),
@@ -135,6 +130,29 @@ def _value_and_interval(refined: Refined, prior: Prior, index: int, spread: floa
     return interval(prior, refined.z[index], spread)
 
 
+def test_record(test: NextTest) -> dict[str, Any]:
+    """One of the next tests."""
+    return {
+        "conditions": test.conditions,
+        "separates": list(test.separates),
+        "expected_bits": test.expected_bits,
+        "text": separating_text(test.separates),
+    }
+
+
+def batch_record(d: Diagnosis) -> dict[str, Any]:
+    """The next tests together: their joint information, the rivals, and the readings for a settled answer."""
+    batch = d.batch
+    return {
+        "expected_bits": batch.expected_bits,
+        "readings": batch.readings,
+        "chance": batch.chance,
+        "settled": batch.settled,
+        "rivals": [{"explanation": list(key.ids), "probability": weight} for key, weight in batch.rivals],
+        "text": needed_readings(batch),
+    }
+
+
 def separating_text(names: tuple[str, ...]) -> str:
     """Tests of the catalogue that separate the named effects."""
     ids = [part for name in names for part in name.split("+") if part not in NOTHING.ids + DISCREPANCY.ids]
@@ -153,6 +171,17 @@ def predictions(d: Diagnosis) -> pd.DataFrame:
             words = pd.Series(_validity(d, p.table), name="validity")
             parts.append(pd.concat([columns, conditions_of(d.case, p.table), words], axis=1))
     return pd.concat(parts, ignore_index=True).drop_duplicates("run", ignore_index=True)
+
+
+def next_tests_table(d: Diagnosis) -> pd.DataFrame:
+    """The batch to fill in: run numbers after all others, conditions, and an empty reading."""
+    import pandas as pd
+
+    names = [c.name for c in d.case.kind.columns if c.name in d.recorded.table]
+    numbered = [p.table["run"].max() for p in (d.recorded, d.wanted) if p is not None]
+    rows = pd.DataFrame([t.conditions for t in d.batch.tests], columns=names)
+    rows.insert(0, "run", np.arange(1, len(rows) + 1) + int(max(numbered)))
+    return rows.assign(**{d.case.quantity: ""})
 
 
 def _validity(d: Diagnosis, table: Table) -> np.ndarray:
