@@ -293,6 +293,11 @@ def _columns(found: Kind, system: system_file.System, measured: bool) -> tuple[C
     return (RUN, *BOOKKEEPING, *own, *found.instrument_channels, *_measured(found, system, measured))
 
 
+def columns_of(case: Case, measured: bool) -> tuple[Column, ...]:
+    """Columns allowed in a table of a case, with the reading if ``measured``."""
+    return _columns(case.kind, case.system, measured)
+
+
 def _rounded(column: Column, low: float, high: float) -> Column:
     """The column limited to the range of the rig, widened by the rounding of recordings."""
     margin = ROUNDED * (high - low)

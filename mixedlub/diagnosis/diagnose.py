@@ -26,6 +26,7 @@ from mixedlub.diagnosis.assessment.answer_checks import (
     noise_notes,
     overdispersion_warning,
 )
+from mixedlub.diagnosis.assessment.campaign import Campaign
 from mixedlub.diagnosis.assessment.check_channel import Check, check_channel
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut
 from mixedlub.diagnosis.assessment.experiment_design import Batch, next_batch
@@ -53,7 +54,10 @@ from profiles.errors import InputError
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """Contents of the answer and their inputs; ``case`` is the ``given`` case with the selected noise."""
+    """Contents of the answer and their inputs; ``case`` is the ``given`` case with the selected noise.
+
+    ``campaign``: the answer before the last added readings, if any.
+    """
 
     given: Case
     case: Case
@@ -71,6 +75,7 @@ class Diagnosis:
     warnings: tuple[Finding, ...]
     excluded: tuple[str, ...] = ()
     noise_stated: bool = True
+    campaign: Campaign | None = None
 
     @property
     def readings(self) -> np.ndarray:

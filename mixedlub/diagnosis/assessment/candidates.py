@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub.case.added import whole_rig
 from mixedlub.case.folder import Case
 from mixedlub.case.reach import Reach, surface_columns, tabulated
 from mixedlub.diagnosis.labels import amount, words_of
@@ -104,8 +105,7 @@ def _table(case: Case, rows: Table, names: list[str], pairs: list[tuple[str, ...
     if "sequence" in rows:
         columns["sequence"] = np.ones(len(grid))
     if "rig" in rows:
-        whole = [name for name in rows["rig"].tolist() if name not in case.kind.part_rigs] or rows["rig"].tolist()
-        columns["rig"] = np.full(len(grid), max(set(whole), key=whole.count))
+        columns["rig"] = np.full(len(grid), whole_rig(case))
     return Table(columns, "next tests")
 
 

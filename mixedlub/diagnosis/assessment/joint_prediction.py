@@ -71,7 +71,7 @@ def _condensed(one: Joint) -> Joint:
 
 
 def _distances(search: Search, rows: NewRows) -> np.ndarray:
-    """Distance of each row beyond either end of every condition, over its recorded span; 1 for a name not recorded."""
+    """Distance of each row beyond either end of every condition, over its span; 1 for a name never recorded."""
     columns = []
     for axis, values in zip(search.space.axes, rows.values, strict=True):
         if axis.named:

@@ -11,6 +11,7 @@ from mixedlub.case.forward import Forward
 from mixedlub.case.simulation import conditions_of
 from mixedlub.case.validity import judge_rows
 from mixedlub.chain.priors import Prior
+from mixedlub.diagnosis.assessment.campaign import Standing
 from mixedlub.diagnosis.assessment.experiment_design import NextTest
 from mixedlub.diagnosis.assessment.prediction import Refined
 from mixedlub.diagnosis.diagnose import Diagnosis
@@ -19,6 +20,7 @@ from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.report.text.location_text import located
 from mixedlub.diagnosis.report.text.next_test_text import needed_readings
 from mixedlub.diagnosis.settings.inference import INTERVAL_ENDS, NINETY
+from mixedlub.recording.readings import rows_of
 from mixedlub.schema.findings import as_records
 from mixedlub.schema.table import Table
 
@@ -153,6 +155,33 @@ def batch_record(d: Diagnosis) -> dict[str, Any]:
     }
 
 
+def campaign_record(d: Diagnosis) -> dict[str, Any] | None:
+    """The contents of `campaign.json`; None without added readings."""
+    campaign = d.campaign
+    if campaign is None:
+        return None
+    return {
+        "schema": "mixedlub-campaign/1",
+        "case": d.case.name,
+        "added_runs": list(campaign.runs),
+        "readings": len(rows_of(d.given)),
+        "before": _standing_record(campaign.before),
+        "after": _standing_record(campaign.after),
+        "expected_bits": campaign.expected_bits,
+        "realised_bits": campaign.realised_bits,
+    }
+
+
+def _standing_record(standing: Standing) -> dict[str, Any]:
+    shares = standing.explanations.items()
+    return {
+        "verdict": list(standing.verdict),
+        "tied": [list(ids) for ids in standing.tied],
+        "probabilities": dict(standing.probabilities),
+        "explanations": [{"explanation": list(ids), "probability": share} for ids, share in shares],
+    }
+
+
 def separating_text(names: tuple[str, ...]) -> str:
     """Tests of the catalogue that separate the named effects."""
     ids = [part for name in names for part in name.split("+") if part not in NOTHING.ids + DISCREPANCY.ids]
@@ -177,11 +206,13 @@ def next_tests_table(d: Diagnosis) -> pd.DataFrame:
     """The batch to fill in: run numbers after all others, conditions, and an empty reading."""
     import pandas as pd
 
-    names = [c.name for c in d.case.kind.columns if c.name in d.recorded.table]
+    recorded = rows_of(d.given)
+    names = [c.name for c in d.case.kind.columns if c.name in recorded]
+    read = [*(c.name for c in d.case.kind.instrument_channels if c.name in recorded), d.case.quantity]
     numbered = [p.table["run"].max() for p in (d.recorded, d.wanted) if p is not None]
     rows = pd.DataFrame([t.conditions for t in d.batch.tests], columns=names)
     rows.insert(0, "run", np.arange(1, len(rows) + 1) + int(max(numbered)))
-    return rows.assign(**{d.case.quantity: ""})
+    return rows.assign(**dict.fromkeys(read, ""))
 
 
 def _validity(d: Diagnosis, table: Table) -> np.ndarray:
