@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mixedlub.case.folder import RUNS_LISTED, Case, Frame, columns_of
+from mixedlub.case.folder import RUNS_LISTED, Case, columns_of
 from mixedlub.case.reach import surface_columns
 from mixedlub.schema.findings import collected, finding, listed, report
 from mixedlub.schema.table import RUN, Column, Table, frame_of, read_table, table_of
 from profiles.errors import InputError, nearest
+
+if TYPE_CHECKING:
+    from mixedlub.case.folder import Frame
 
 STEP = 1e-6
 """Definition. Distance of two added readings in the programme: they come after it, in their order, at its end."""

@@ -85,9 +85,7 @@ def _refuse_campaign(to: Delivery) -> None:
     from mixedlub.diagnosis.report.files import CAMPAIGN
 
     if not to.how.replace and (to.folder / f"{CAMPAIGN}.json").exists():
-        rule = (
-            "holds a campaign with added readings; go on with --add, name another folder with --out, or say --replace"
-        )
+        rule = "holds added readings; go on with --add, name another folder with --out, or say --replace"
         raise InputError(rule, where="--out", value=str(to.folder))
 
 
@@ -101,17 +99,15 @@ def _added(
     progress: Callable[[str], None],
 ) -> Diagnosis:
     """Diagnosis of the case, or of the campaign that went on from it, with the readings of a file."""
-    from mixedlub.case.folder import read_case, read_conditions
-    from mixedlub.diagnosis.campaign import diagnosis_with, earlier_answer
+    from mixedlub.diagnosis.campaign import diagnose_added
     from mixedlub.diagnosis.report.files import CAMPAIGN
 
-    current = to.origin.is_of(to.folder)
-    goes_on = (to.folder / f"{CAMPAIGN}.json").exists() and not to.how.replace
-    if goes_on and not current:
+    current, replaces = to.origin.is_of(to.folder), to.how.replace
+    goes_on = (to.folder / f"{CAMPAIGN}.json").exists()
+    if goes_on and not current and not replaces:
         rule = "holds a campaign on an earlier state of the case; name another folder with --out and add all files anew"
         raise InputError(rule, where="--out", value=str(to.folder))
-    base = read_case(to.folder / CAMPAIGN if goes_on else case)
-    base = replace(base, name=case.resolve().name)
-    requested = base.conditions if predict is None else read_conditions(base, predict)
-    earlier = earlier_answer(to.folder, exclude, level) if current else None
-    return diagnosis_with(base, add, requested, exclude, level, progress, earlier)
+    # An answer to another state of the case, or with readings that are left behind, is no answer before these readings.
+    answered = to.folder if current and not (goes_on and replaces) else to.folder / CAMPAIGN
+    campaign = to.folder / CAMPAIGN if goes_on and not replaces else None
+    return diagnose_added(case, add, answered, predict, exclude, level, progress, campaign)

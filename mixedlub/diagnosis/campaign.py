@@ -6,18 +6,21 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from mixedlub.case.added import with_added
-from mixedlub.case.folder import Case, Frame
+from mixedlub.case.folder import Case, read_case, read_conditions
 from mixedlub.diagnosis.assessment.campaign import Campaign, Standing, realised_bits
 from mixedlub.diagnosis.assessment.experiment_design import expected_information
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnosis_of
 from mixedlub.diagnosis.search.search import Progress
 from mixedlub.diagnosis.settings.assessment import FALSE_ALARM_RATE
 from mixedlub.schema.table import Table
+
+if TYPE_CHECKING:
+    from mixedlub.case.folder import Frame
 
 
 def diagnosis_with(
@@ -47,6 +50,25 @@ def diagnosis_with(
     realised = realised_bits(before.explanations, after.explanations)
     runs = tuple(int(run) for run in rows["run"])
     return replace(found, campaign=Campaign(runs, before, after, expected, realised))
+
+
+def diagnose_added(
+    folder: Path,
+    added: Path,
+    answered: Path,
+    predict: Path | None = None,
+    exclude: Sequence[str] = (),
+    level: float = FALSE_ALARM_RATE,
+    progress: Progress = lambda text: None,
+    campaign: Path | None = None,
+) -> Diagnosis:
+    """Diagnose the case in a folder with the readings of a file, from the answer in another folder.
+
+    ``campaign``: folder of the case with readings that were added before.
+    """
+    case = replace(read_case(folder if campaign is None else campaign), name=folder.resolve().name)
+    requested = case.conditions if predict is None else read_conditions(case, predict)
+    return diagnosis_with(case, added, requested, exclude, level, progress, earlier_answer(answered, exclude, level))
 
 
 def earlier_answer(folder: Path, exclude: Sequence[str], level: float) -> dict[str, Any] | None:

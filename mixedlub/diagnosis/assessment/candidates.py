@@ -163,13 +163,13 @@ def needs_of(case: Case, rows: Table, table: Table) -> list[list[str]]:
             needs[i].append(f"{words_of(column.name)} {amount(value, column.name)} (recorded {side})")
     names = [n for n in surface_columns(case.kind) if n in table and n in rows]
     known = set(_pairs(rows, names, ()))
-    for i, pair in enumerate(zip(*(map(str, table[name]) for name in names), strict=True) if names else ()):
+    for row, pair in enumerate(zip(*(map(str, table[name]) for name in names), strict=True) if names else ()):
         if pair not in known:
-            needs[i].append(f"the pair {' on '.join(pair)}, never recorded")
+            needs[row].append(f"the pair {' on '.join(pair)}, never recorded")
     for name, there in tabulated(case.system, case.rig).items():
-        for i, value in enumerate(table[name]):
+        for row, value in enumerate(table[name]):
             if not np.isclose(value, there, rtol=1e-6).any():
-                needs[i].append(f"rows at {amount(float(value), name)} in the load-share table")
+                needs[row].append(f"rows at {amount(float(value), name)} in the load-share table")
     return needs
 
 

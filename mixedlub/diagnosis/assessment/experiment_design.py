@@ -114,9 +114,8 @@ def next_batch(
     chosen = chosen_batch(rivals.weights, predictions, usable, 1 if settled else BATCH)
     stated = [rivals.at(table.take(np.array(chosen)))] if chosen else []
     names = tuple("+".join(k.ids) for k in rivals.keys)
-    further, beyond = outside(case, rows, columns, varied), ()
-    if len(further[0]):
-        beyond = _beyond(rivals, further, columns, names)
+    further = outside(case, rows, columns, varied)
+    beyond = _beyond(rivals, further, columns, names) if len(further[0]) else ()
     if not stated:
         return Batch(settled=settled, beyond=beyond)
     outcome = played(rivals.weights, _repeated(stated[0], 1 if settled else MOST_READINGS))
@@ -135,7 +134,7 @@ def expected_information(search: Search, judged: Posterior, refined: dict[Explan
     if len(rivals.keys) < 2:
         return 0.0
     predictions, usable = _finite(rivals.at(table))
-    return float(played(rivals.weights, [p.take(np.flatnonzero(usable)) for p in predictions]).bits[-1])
+    return float(played(rivals.weights, [p.take(np.flatnonzero(usable).tolist()) for p in predictions]).bits[-1])
 
 
 def _finite(predictions: Sequence[Joint]) -> tuple[list[Joint], np.ndarray]:
@@ -147,7 +146,7 @@ def _finite(predictions: Sequence[Joint]) -> tuple[list[Joint], np.ndarray]:
 def _repeated(predictions: Sequence[Joint], count: int) -> list[Joint]:
     """The batch, repeated up to a number of readings."""
     order = np.resize(np.arange(len(predictions[0].mean)), max(count, len(predictions[0].mean)))
-    return [p.take(order) for p in predictions]
+    return [p.take(order.tolist()) for p in predictions]
 
 
 class _Draws:
