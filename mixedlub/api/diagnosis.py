@@ -13,10 +13,11 @@ import numpy as np
 
 from mixedlub.case.folder import Case, conditions_for, read_case
 from mixedlub.case.simulation import simulate as simulated
+from mixedlub.diagnosis.campaign import diagnosis_with
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnosis_of
 from mixedlub.diagnosis.report.files import case_origin, files, write
 from mixedlub.diagnosis.report.improved import improved_case
-from mixedlub.diagnosis.report.text.answer import as_json, predictions
+from mixedlub.diagnosis.report.text.answer import as_json, campaign_record, next_tests_table, predictions
 from mixedlub.diagnosis.report.text.headline import chance
 from mixedlub.schema.findings import as_texts, collected, gravest_first, listed, warn_of
 from mixedlub.study.plan import counted
@@ -85,6 +86,16 @@ class Answer:
     def predictions(self) -> pd.DataFrame:
         """The table of `predictions.csv`: base, calibrated and predicted readings with 90 % intervals, conditions."""
         return predictions(self.diagnosis)
+
+    @property
+    def next_tests(self) -> pd.DataFrame:
+        """The table of `next_tests.csv`: a batch of tests with an empty reading, to fill in and hand to ``add``."""
+        return next_tests_table(self.diagnosis)
+
+    @property
+    def campaign(self) -> dict[str, Any] | None:
+        """The content of `campaign.json`: answers before and after added readings; None without any."""
+        return campaign_record(self.diagnosis)
 
     @property
     def findings(self) -> list[str]:
@@ -165,6 +176,7 @@ def diagnose(
     *,
     exclude: str | Sequence[str] = (),
     level: float = 0.01,
+    add: Frame | str | PathLike[str] | None = None,
 ) -> Answer:
     """Diagnose which physics is missing in the base model of a recorded case.
 
@@ -178,6 +190,9 @@ def diagnose(
         Ids of effects left out of the catalogue.
     level : float, optional
         Significance level of the mismatch test.
+    add : DataFrame, mapping of str to array_like, str or PathLike, optional
+        Further readings, or the file of a batch filled in: they join the recording, which is not changed, and the
+        answer is compared with the one without them (``Answer.campaign``).
 
     Returns
     -------
@@ -201,7 +216,10 @@ def diagnose(
     """
     found = _case(case, "diagnose")
     asked = found.conditions if predict is None else conditions_for(found, predict)
-    return Answer(diagnosis_of(found, asked, _ids(exclude), level))
+    if add is None:
+        return Answer(diagnosis_of(found, asked, _ids(exclude), level))
+    added = as_path(add, "add") if isinstance(add, str | PathLike) else add
+    return Answer(diagnosis_with(found, added, asked, _ids(exclude), level))
 
 
 def simulate(case: Case | str | PathLike[str], at: Frame | None = None) -> pd.DataFrame:

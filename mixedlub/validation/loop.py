@@ -23,6 +23,7 @@ from mixedlub.validation.rig import Case, Rig
 from mixedlub.validation.rigs import CONTACTS, discs, gears
 from mixedlub.validation.run import Diagnose, Progress, answer, quiet, unsealed
 from mixedlub.validation.sample_case import Order, Sample, sample_case
+from profiles.errors import InputError
 
 Add = Callable[[Path, Path, Path, Path], object]
 """A diagnosis with added readings: case folder, filled-in file, earlier answer, folder for the new answer."""
@@ -200,17 +201,15 @@ def play(
     add: Add,
     campaigns: int,
     seed: int,
+    kinds: Sequence[str] = CONTACTS,
     progress: Progress = quiet,
-    seconds: Callable[[], float] = lambda: 0.0,
-    most_seconds: float = np.inf,
 ) -> str:
-    """Play campaigns into ``out`` until there are enough or the time is over, and return the score as text.
-
-    A stopped run is resumed.
-    """
+    """Play campaigns into ``out`` and return the score as text; a stopped run is resumed."""
+    if not set(kinds) <= set(REBUILT):
+        raise InputError(f"campaigns are played on {' and '.join(REBUILT)}", where="kinds", value=list(kinds))
     loop, found = Loop(out, seed, diagnose, add), list[dict[str, Any]]()
-    for index, order in enumerate(orders(seed, campaigns)):
-        if len(found) == campaigns or seconds() > most_seconds:
+    for index, order in enumerate(orders(seed, campaigns, kinds)):
+        if len(found) == campaigns:
             break
         told = loop.campaign(index, order)
         found += [] if told is None else [told]
