@@ -14,10 +14,11 @@ import numpy as np
 from mixedlub.api.own_simulation import Simulation, case_with_simulation
 from mixedlub.case.folder import Case, conditions_for, read_case, with_hypotheses
 from mixedlub.case.simulation import simulate as simulated
+from mixedlub.diagnosis.campaign import diagnosis_with
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnosis_of
 from mixedlub.diagnosis.report.files import case_origin, files, write
 from mixedlub.diagnosis.report.improved import improved_case
-from mixedlub.diagnosis.report.text.answer import as_json, predictions
+from mixedlub.diagnosis.report.text.answer import as_json, campaign_record, next_tests_table, predictions
 from mixedlub.diagnosis.report.text.headline import chance
 from mixedlub.schema.findings import as_texts, collected, gravest_first, listed, warn_of
 from mixedlub.schema.units import stated_units
@@ -87,6 +88,16 @@ class Answer:
     def predictions(self) -> pd.DataFrame:
         """The table of `predictions.csv`: base, calibrated and predicted readings with 90 % intervals, conditions."""
         return predictions(self.diagnosis)
+
+    @property
+    def next_tests(self) -> pd.DataFrame:
+        """The table of `next_tests.csv`: a batch of tests with an empty reading, to fill in and hand to ``add``."""
+        return next_tests_table(self.diagnosis)
+
+    @property
+    def campaign(self) -> dict[str, Any] | None:
+        """The content of `campaign.json`: answers before and after added readings; None without any."""
+        return campaign_record(self.diagnosis)
 
     @property
     def findings(self) -> list[str]:
@@ -177,6 +188,7 @@ def diagnose(
     system: Mapping[str, Any] | None = None,
     folder: str | PathLike[str] | None = None,
     name: str | None = None,
+    add: Frame | str | PathLike[str] | None = None,
 ) -> Answer:
     """Diagnose which physics is missing in the base model of a recorded case, or in the user's own simulation.
 
@@ -208,6 +220,9 @@ def diagnose(
         Folder in which the case is written; default: it stays in memory.
     name : str, optional
         Name of the case.
+    add : DataFrame, mapping of str to array_like, str or PathLike, optional
+        Further readings, or the file of a batch filled in: they join the recording, which is not changed, and the
+        answer is compared with the one without them (``Answer.campaign``).
 
     Returns
     -------
@@ -243,7 +258,10 @@ def diagnose(
         raise InputError("acts only with simulate; leave it out", where=f"diagnose: {next(iter(given))}")
     found = with_hypotheses(_case(case, "diagnose"), rivals)
     asked = found.conditions if predict is None else conditions_for(found, predict)
-    return Answer(diagnosis_of(found, asked, _ids(exclude), level))
+    if add is None:
+        return Answer(diagnosis_of(found, asked, _ids(exclude), level))
+    added = as_path(add, "add") if isinstance(add, str | PathLike) else add
+    return Answer(diagnosis_with(found, added, asked, _ids(exclude), level))
 
 
 def simulate(case: Case | str | PathLike[str], at: Frame | None = None) -> pd.DataFrame:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from mixedlub.case.import_file import read_import_file
+from mixedlub.case.reach import Reach, reach_of
 from mixedlub.chain.effect import Effect
 from mixedlub.gear import ROUNDED
 from mixedlub.kinds import Kind, kind
@@ -72,6 +73,7 @@ class Case:
     notes: tuple[Finding, ...]
     laws: Mapping[str, Effect] = field(default_factory=dict)
     hypotheses: tuple[str, ...] = ()
+    reach: Reach = field(default_factory=Reach)
 
     def __repr__(self) -> str:
         tables = {"recordings": self.recordings, "conditions": self.conditions}
@@ -219,6 +221,7 @@ def _checked(
             where=f"{where}: recording.quantity",
             value=quantity,
         )
+    reach = reach_of(system, found, where)
     with collected() as notes:
         recordings = table("recordings", _columns(found, system, True))
         if recordings is not None:
@@ -241,6 +244,7 @@ def _checked(
         conditions,
         tuple(notes),
         laws,
+        reach=reach,
     )
     return with_hypotheses(case, hypotheses)
 
@@ -366,6 +370,11 @@ def _columns(found: Kind, system: system_file.System, measured: bool) -> tuple[C
     reach = found.column_limits(system)
     own = (_rounded(c, *reach[c.name]) if c.name in reach else c for c in own)
     return (RUN, *BOOKKEEPING, *own, *found.instrument_channels, *_measured(found, system, measured))
+
+
+def columns_of(case: Case, measured: bool) -> tuple[Column, ...]:
+    """Columns allowed in a table of a case, with the reading if ``measured``."""
+    return _columns(case.kind, case.system, measured)
 
 
 def _rounded(column: Column, low: float, high: float) -> Column:

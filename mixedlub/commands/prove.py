@@ -50,6 +50,14 @@ def command(
             metavar="DIR", parser=named_folder, help="Recordings of real rigs in this folder, with concealed truths."
         ),
     ] = None,
+    loop: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N",
+            min=1,
+            help="N campaigns from ties, unknowns and misses: the proposed next readings against others.",
+        ),
+    ] = None,
     split: Annotated[
         str, typer.Option(metavar="NAME", help="Sources of --real to use: development or test.")
     ] = "development",
@@ -86,12 +94,19 @@ def command(
     from mixedlub.validation.rigs import CONTACTS, OTHERS
     from mixedlub.validation.worlds.deal import plan_worlds, worlds_of
 
-    if real is not None and (rigs or worlds or poor or forms):
-        raise InputError("is a battery of its own", where="--real")
+    if (real is not None or loop is not None) and (rigs or worlds or poor or forms):
+        raise InputError("is a battery of its own", where="--real" if real is not None else "--loop")
     if worlds and poor:
         raise InputError("is dealt of rigs that follow the base laws: leave out --worlds", where="--poor")
     if forms and (worlds or poor):
         raise InputError("is dealt of good recordings of rigs that follow the base laws", where="--forms")
+    if loop is not None:
+        echo(
+            _loop(
+                loop, output_folder(out, NAME, "loop"), seed, tuple(_chosen(kinds)) if kinds else ("gear_pair", "disc")
+            )
+        )
+        return
     every = worlds_of((*CONTACTS, *OTHERS)) if worlds and not rigs else worlds_of(OTHERS) if worlds else ()
     every = (*CONTACTS, *OTHERS) if (poor or forms) and not rigs else every
     chosen = _chosen(kinds) if kinds else every or (OTHERS if rigs else CONTACTS)
@@ -127,6 +142,27 @@ def command(
             )
     echo((folder / "score.txt").read_text(encoding="utf-8"))
     echo(f"written to {folder}")
+
+
+def _loop(campaigns: int, folder: Path, seed: int, kinds: tuple[str, ...]) -> str:
+    """Score of campaigns with added readings, played into a folder."""
+    from mixedlub.commands.console import busy
+    from mixedlub.diagnosis.campaign import diagnose_added
+    from mixedlub.diagnosis.diagnose import diagnose_case
+    from mixedlub.diagnosis.report.files import texts
+    from mixedlub.running.atomic import fill
+    from mixedlub.validation.loop import play
+
+    with busy("campaigns") as doing:
+        return play(
+            folder,
+            lambda case, to: fill(texts(diagnose_case(case), None), to),
+            lambda case, added, answered, to: fill(texts(diagnose_added(case, added, answered), None), to),
+            campaigns,
+            seed,
+            kinds,
+            lambda stage, done, total: doing(f"{stage}: {done} of {total}"),
+        )
 
 
 def _chosen(kinds: str) -> tuple[str, ...]:

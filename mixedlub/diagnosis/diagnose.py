@@ -26,9 +26,10 @@ from mixedlub.diagnosis.assessment.answer_checks import (
     noise_notes,
     overdispersion_warning,
 )
+from mixedlub.diagnosis.assessment.campaign import Campaign
 from mixedlub.diagnosis.assessment.check_channel import Check, check_channel
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut, LevelsOut
-from mixedlub.diagnosis.assessment.experiment_design import NextTest, next_tests
+from mixedlub.diagnosis.assessment.experiment_design import Batch, next_batch
 from mixedlub.diagnosis.assessment.extrapolation import beyond_recorded
 from mixedlub.diagnosis.assessment.hypotheses import Hypothesis, weigh
 from mixedlub.diagnosis.assessment.location import Region, region, time_columns
@@ -55,7 +56,10 @@ from profiles.errors import InputError
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """Contents of the answer and their inputs; ``case`` is the ``given`` case with the selected noise."""
+    """Contents of the answer and their inputs; ``case`` is the ``given`` case with the selected noise.
+
+    ``campaign``: the answer before the last added readings, if any.
+    """
 
     given: Case
     case: Case
@@ -69,11 +73,12 @@ class Diagnosis:
     region: Region
     heldout: HeldOut
     contained: tuple[Contained, ...]
-    next_tests: tuple[NextTest, ...]
+    batch: Batch
     warnings: tuple[Finding, ...]
     excluded: tuple[str, ...] = ()
     noise_stated: bool = True
     hypotheses: tuple[Hypothesis, ...] = ()
+    campaign: Campaign | None = None
 
     @property
     def readings(self) -> np.ndarray:
@@ -199,7 +204,7 @@ def _diagnosis_of(
     passing = [n for n in time_columns(search, decided.verdict) if n in rows and n not in varied]
     mismatch_region = region(rows, [*varied, *passing], np.where(outlier_chance > LIKELY, 0.0, recorded.mismatch_z))
     laws = contained(search, decided.verdict)
-    tests = next_tests(search, decided, refined, columns, varied)
+    batch = next_batch(search, decided, refined, columns, varied)
     warnings += _cautions(search, decided, heldout, refined, recorded.predicted, outlier_chance > LIKELY)
     all_warnings = tuple(warnings)
     return Diagnosis(
@@ -215,7 +220,7 @@ def _diagnosis_of(
         mismatch_region,
         heldout,
         laws,
-        tests,
+        batch,
         all_warnings,
         left_out,
         noise_search.stated,

@@ -23,10 +23,11 @@ ENDS = 1 << 20
 
 @dataclass(frozen=True)
 class Origin:
-    """Input of a run: location and content hash."""
+    """Input of a run: location and content hash; ``within``: another input, which may lie in the folder of results."""
 
     source: Path
     fingerprint: str
+    within: Path | None = None
 
     def write_record(self, aside: Path, folder: Path, earlier: Mapping[str, str] | None = None) -> None:
         """Write `origin.json` for ``folder`` into ``aside``; ``earlier``: marks of files that remain."""
@@ -46,7 +47,8 @@ class Origin:
         found = _read(folder)
         marks = found.get("files", {})
         paths = {name: folder / name for name in (*_files(folder, names), *marks)}
-        there = [name for name, path in paths.items() if path.exists() and not is_same(path, self.source)]
+        own = [self.source, *([] if self.within is None else [self.within])]
+        there = [n for n, path in paths.items() if path.exists() and not any(is_same(path, one) for one in own)]
         if not there:
             return ""
         way_out = "name another folder with --out, or say --replace"
@@ -54,13 +56,17 @@ class Origin:
         if foreign:
             rule = f"holds {' and '.join(foreign)}, not as a run left it; {way_out}"
             raise InputError(rule, where="--out", value=str(folder))
-        own = self._identity(folder)
-        if found.get("fingerprint") == own["fingerprint"]:
+        identity = self._identity(folder)
+        if found.get("fingerprint") == identity["fingerprint"]:
             return ""
-        if found.get("source") != own["source"]:
+        if found.get("source") != identity["source"]:
             rule = f"holds the result of another {what}, {found.get('source')}; {way_out}"
             raise InputError(rule, where="--out", value=str(folder))
         return f"the result in {folder} is of an earlier state of {self.source} and is replaced"
+
+    def is_of(self, folder: Path) -> bool:
+        """Whether a run on this input, in its present state, made the result in a folder."""
+        return bool(_read(folder).get("fingerprint") == self.fingerprint)
 
     def _identity(self, folder: Path) -> dict[str, str]:
         """The input with its path relative to the result, so that both may be moved together."""

@@ -22,6 +22,7 @@ from mixedlub.schema.discovery import declared
 from mixedlub.schema.gear_file import gear_names, with_preset
 from mixedlub.schema.oil_file import STOCKS, Base, KnownCoefficient, oil_names, with_oil
 from mixedlub.schema.section import Float, Number, NumberOrName, Section, Whole, key, one_of, tables, with_ranges
+from mixedlub.schema.settable import Settable
 from mixedlub.schema.simulation_file import Condition, SimulationInput, simulation_input
 from mixedlub.schema.surface_file import SurfaceSection
 from profiles.errors import InputError
@@ -345,6 +346,11 @@ class System(RigFile):
         "NAME = VALUE: calibrated inputs at which the model is simulated, named as in diagnosis.json",
         {},
         example={"boundary_friction": 0.1},
+    )
+    rig: dict[str, Settable] = key(
+        "CONDITION = [LOW, HIGH] or { steps = [...] }, and pairings = [[SURFACE, SURFACE], ...]: what can be set; next "
+        "tests stay inside it; left out: inside the recorded range and pairs",
+        {},
     )
 
     @field_validator("recording", mode="before")

@@ -41,6 +41,7 @@ ROOMS = {
         "search",
         "assessment",
         "diagnose",
+        "campaign",
         "report",
     ),
     "diagnosis/report": ("text", "figures", "html", "improved", "files"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from mixedlub.chain.plain_text import plain_equation
 from mixedlub.chain.priors import Normal
 from mixedlub.data_checks.audit import SCARCE, audit
 from mixedlub.diagnosis.assessment.answer_checks import answer_warnings
-from mixedlub.diagnosis.assessment.experiment_design import NextTest
+from mixedlub.diagnosis.assessment.experiment_design import Batch, NextTest
 from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.assessment.power_law import describe_discrepancy as describe
 from mixedlub.diagnosis.diagnose import Diagnosis
@@ -312,28 +313,44 @@ def test_warnings_come_last(teeth: Diagnosis) -> None:
     assert any("28 readings" in s for s in last.sentences)
 
 
-def advised(d: Diagnosis, bits: float, **conditions: float | str) -> str:
-    """The words on the next test where it is this one."""
+RIVALS = ((Explanation.of("sensor_offset"), 0.6), (Explanation.of("sensor_gain"), 0.4))
+
+
+def advised(d: Diagnosis, batch: Batch) -> str:
+    """The words on the next tests where they are this batch."""
     sound = {Explanation.of("sensor_offset"): 0.9}
-    test = NextTest(conditions, ("sensor_offset", "none"), bits)
-    return told(replace(judged(d, sound, 1), next_tests=(test,)))[words.NEXT]
+    return told(replace(judged(d, sound, 1), batch=batch))[words.NEXT]
 
 
-def test_a_next_test_outside_the_recording_says_so(offset: Diagnosis) -> None:
-    high = float(offset.recorded.table["speed_rpm"].max())
-    said = advised(offset, 0.5, speed_rpm=high + 1000.0, oil_temperature_C=60.0)
-    assert f"Beyond the recorded range: speed {high + 1000:g} rpm (recorded up to {high:g} rpm)." in said
-    assert "oil temperature" not in said.split("Beyond")[1]
+def batch_of(bits: float, **settings: Any) -> Batch:
+    test = NextTest({"speed_rpm": 1500.0}, ("sensor_offset", "sensor_gain"), bits)
+    return Batch((test,), RIVALS, **settings)
 
 
-def test_a_next_test_within_the_recording_does_not(offset: Diagnosis) -> None:
-    assert "eyond" not in advised(offset, 0.5, speed_rpm=float(offset.recorded.table["speed_rpm"].min()))
+def test_a_batch_says_its_information_and_the_readings_it_takes(offset: Diagnosis) -> None:
+    said = advised(offset, batch_of(0.5, readings=14))
+    assert "together 0.50 bit" in said
+    assert "About 14 such readings" in said
+    assert "--add next_tests.csv" in said
+    assert "eyond" not in said
+
+
+def test_a_test_beyond_the_recording_says_its_needs(offset: Diagnosis) -> None:
+    needs = ("speed 4000 rpm (recorded up to 3000 rpm)",)
+    far = NextTest({"speed_rpm": 4000.0}, ("sensor_offset", "sensor_gain"), 0.9, needs)
+    said = advised(offset, batch_of(0.5, beyond=(far,)))
+    assert "Beyond the recording a single reading could tell 0.90 bit" in said
+    assert said.rstrip().endswith("It needs speed 4000 rpm (recorded up to 3000 rpm).")
+
+
+def test_a_settled_answer_has_one_test_that_could_refute_it(offset: Diagnosis) -> None:
+    said = advised(offset, batch_of(0.02, settled=True, readings=0))
+    assert "the most likely to refute the answer, against sensor gain" in said
 
 
 def test_no_useful_test_is_said(offset: Diagnosis) -> None:
-    assert advised(offset, 0.001, speed_rpm=1000.0).startswith("No useful test: no single reading")
-    alone = replace(judged(offset, {Explanation.of("sensor_offset"): 0.9}, 1), next_tests=())
-    assert told(alone)[words.NEXT].startswith("No useful test: there is no second explanation")
+    assert advised(offset, batch_of(0.001)).startswith("No useful test: no readings")
+    assert advised(offset, Batch()).startswith("No useful test: there is no second explanation")
 
 
 @pytest.mark.parametrize(

@@ -136,7 +136,7 @@ def test_outliers_next_tests_and_warnings(answer: tuple[Diagnosis, dict[str, Any
     assert set(said["outlier_runs"]) <= runs
     names = {c.name for c in d.case.kind.columns}
     for test in said["next_tests"]:
-        assert set(test) == {"conditions", "separates", "expected_bits", "text"}
+        assert set(test) == {"conditions", "separates", "expected_bits", "text", "readings"}
         assert set(test["conditions"]) <= names
         assert test["expected_bits"] >= 0
         assert all(isinstance(s, str) for s in test["separates"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -30,13 +31,15 @@ from mixedlub.schema.table import Table
 class Prediction:
     """Predicted readings, their variance, and the base model at the same calibration.
 
-    ``lean`` (2, rows) is added to the variance for the lower and the upper end of an interval.
+    ``lean`` (2, rows) is added to the variance for the lower and the upper end of an interval. ``shared``: columns with
+    a covariance of one, through which the rows share their uncertainty; the rest of the variance is of each row alone.
     """
 
     mean: np.ndarray
     variance: np.ndarray
     base: np.ndarray
     lean: np.ndarray | float = 0.0
+    shared: Callable[[], np.ndarray] = lambda: np.zeros((0, 0))
 
     @property
     def ends(self) -> np.ndarray:
@@ -46,11 +49,15 @@ class Prediction:
 
 @dataclass(frozen=True, eq=False)
 class Refined:
-    """A fit with an error of form; ``change_points`` hold the posteriors that the covariance lacks."""
+    """A fit with an error of form; ``change_points`` hold the posteriors that the covariance lacks.
+
+    ``bend`` is the most probable relative size of the error of form, ``bend_rms`` the root mean square over all sizes.
+    """
 
     fit: Fit
     z: np.ndarray
     bend: float
+    bend_rms: float
     coefficients: np.ndarray
     covariance: np.ndarray
     residual: np.ndarray
@@ -64,8 +71,8 @@ class Refined:
         return np.asarray(np.sqrt(own + sum(p.variance for p in self.change_points)))
 
 
-def refine(search: Search, fit: Fit) -> Refined:
-    """Fit the error of form together with the coordinates."""
+def refine(search: Search, fit: Fit, sizes: Sequence[tuple[float, float]] = FORM_ERRORS) -> Refined:
+    """Fit the error of form together with the coordinates; ``sizes`` are its relative sizes with their weights."""
     problem = search.problem
     at_change_points, sloping = change_point_coordinates(problem, fit.explanation), fit
     fit = replace(fit, slopes=drop_columns(fit.slopes, at_change_points))
@@ -73,17 +80,21 @@ def refine(search: Search, fit: Fit) -> Refined:
     net = (fit.prediction - search.null_fit.prediction) / problem.sd
     typical = rms(net)
     columns = form_error_columns(net, typical, search.space, search.values)
-    best, best_score = None, -np.inf
-    for size, weight in FORM_ERRORS:
+    best, best_score, scores = None, -np.inf, []
+    for size, weight in sizes:
         all_columns = np.hstack([fixed, size * columns]) if size and columns.size else fixed
         linear = linear_fit(fit.anchor, all_columns, fit.weight)
         score = linear.evidence + np.log(weight)
+        scores.append(score)
         if score > best_score:
             best, best_score, used = linear, score, all_columns
             form_error_size = size if columns.size else 0.0
         if not n_inexact(search.problem, fit.explanation):
             break
     assert best is not None
+    shares = np.exp(np.array(scores) - best_score)
+    squares = np.array([size for size, _ in sizes[: len(scores)]]) ** 2
+    bend_rms = float(np.sqrt(shares @ squares / shares.sum())) if columns.size else 0.0
     spread = covariance(used, best.weight)
     spread[at_change_points, at_change_points] = 0.0
     target_z = best.coefficients[: fit.z.size].copy()
@@ -98,7 +109,7 @@ def refine(search: Search, fit: Fit) -> Refined:
 
     z, form_error = damped_update(problem, fit.explanation, fit.z, target_z, fit.common, form_errors, fit.weight)
     coefficients = np.concatenate([z, best.coefficients[z.size : fixed.shape[1]], form_error.coefficients])
-    return Refined(fit, z, form_error_size, coefficients, spread, form_error.residual, typical, change_points)
+    return Refined(fit, z, form_error_size, bend_rms, coefficients, spread, form_error.residual, typical, change_points)
 
 
 class NewRows:
@@ -143,7 +154,19 @@ class NewRows:
             mean = mean + self.problem.sd * (form_error @ refined.coefficients[-form_error.shape[1] :])
         all_columns = np.hstack(columns)
         variance = np.einsum("ij,jk,ik->i", all_columns, refined.covariance, all_columns) * self.problem.sd**2
-        return Prediction(mean + gain, variance + variances[0], base, variances[1:] - variances[0])
+        lean = variances[1:] - variances[0]
+        spread = self._shared(all_columns, refined.covariance)
+        return Prediction(mean + gain, variance + variances[0], base, lean, spread)
+
+    def _shared(self, columns: np.ndarray, spread: np.ndarray) -> Callable[[], np.ndarray]:
+        """Columns through which the rows share an uncertainty, computed where wanted."""
+
+        def shared() -> np.ndarray:
+            size, vectors = np.linalg.eigh(spread)
+            root = vectors * np.sqrt(np.maximum(size, 0.0))
+            return np.asarray((columns @ root) * self.problem.sd[:, None])
+
+        return shared
 
     def of_discrepancy(self) -> Prediction:
         """Prediction of the base fit plus the discrepancy, which vanishes far from the recorded conditions."""
@@ -159,7 +182,8 @@ class NewRows:
         all_columns = np.hstack([slopes, shared, form])
         mean = calibrated + self.problem.sd * (form @ discrepancy.fit.coefficients[-form.shape[1] :])
         variance = np.einsum("ij,jk,ik->i", all_columns, discrepancy.covariance, all_columns) + self._phase_variance()
-        return Prediction(mean, variance * self.problem.sd**2, calibrated)
+        spread = self._shared(all_columns, discrepancy.covariance)
+        return Prediction(mean, variance * self.problem.sd**2, calibrated, shared=spread)
 
     def _phase_variance(self) -> np.ndarray:
         """Variance of a wave due to its unknown phase, in units of the noise."""

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from mixedlub.case.files import LAWS, law_files
+from mixedlub.case.files import LAWS, case_files, law_files
 from mixedlub.case.folder import HYPOTHESES, Case
 from mixedlub.diagnosis.assessment.power_law import DescribedDiscrepancy, describe_discrepancy
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
@@ -15,7 +15,8 @@ from mixedlub.diagnosis.explanation import DISCREPANCY
 from mixedlub.diagnosis.labels import in_units_of_case
 from mixedlub.diagnosis.report.improved import FILES, FOLDER, improved_files
 from mixedlub.diagnosis.report.text import words
-from mixedlub.diagnosis.report.text.answer import as_json, predictions
+from mixedlub.diagnosis.report.text.answer import as_json, campaign_record, next_tests_table, predictions
+from mixedlub.diagnosis.report.text.next_test_text import BATCH_FILE
 from mixedlub.diagnosis.search.search import Progress
 from mixedlub.diagnosis.settings.assessment import FALSE_ALARM_RATE
 from mixedlub.running.atomic import fill, writing
@@ -24,8 +25,10 @@ from mixedlub.running.parallel import shared_out
 from mixedlub.schema.toml_file import to_toml
 
 XML = '<?xml version="1.0" encoding="utf-8" standalone="no"?>\n'
-WRITTEN = ("diagnosis.json", "predictions.csv", "report.txt", "report.html")
+WRITTEN = ("diagnosis.json", "predictions.csv", BATCH_FILE, "report.txt", "report.html")
 """Files of every answer."""
+CAMPAIGN = "campaign"
+"""Folder of the case with added readings, and name of the comparison with the answer before them."""
 AS_USED = "case/system.toml"
 """File of the answer with the system as used."""
 
@@ -40,9 +43,9 @@ def diagnose(
 ) -> Diagnosis:
     """Diagnose a case and write the answer into ``out``.
 
-    The files are diagnosis.json, predictions.csv, report.txt, report.html, figures/, the system as used in case/, the
-    case of the improved model in improved/, and origin.json, which names the case. They replace an earlier answer once
-    all are written. The same case gives the same bytes.
+    The files are diagnosis.json, predictions.csv, next_tests.csv, report.txt, report.html, figures/, the system as used
+    in case/, the case of the improved model in improved/, and origin.json, which names the case. They replace an
+    earlier answer once all are written. The same case gives the same bytes.
     """
     origin = case_origin(case_folder)
     diagnosis = diagnose_case(case_folder, predict, exclude, level, progress)
@@ -69,9 +72,11 @@ def texts(d: Diagnosis, extra: DescribedDiscrepancy | None) -> dict[str, str | b
     return {
         "diagnosis.json": json.dumps({**as_json(d), **_discrepancy_record(extra)}, indent=1, ensure_ascii=False) + "\n",
         "predictions.csv": predictions(d).to_csv(index=False, float_format="%.9g", lineterminator="\n"),
+        BATCH_FILE: next_tests_table(d).to_csv(index=False, lineterminator="\n"),
         "report.txt": _text(d, words.sections(d, extra)),
         **_as_used(d.given),
         **improved_files(d),
+        **_campaign_files(d),
     }
 
 
@@ -80,6 +85,13 @@ def _as_used(case: Case) -> dict[str, str | bytes]:
     system = case.system.model_dump(by_alias=True, exclude_unset=True)
     laws = law_files(case, system)
     return {AS_USED: to_toml(system), **{f"{AS_USED.rpartition('/')[0]}/{path}": text for path, text in laws.items()}}
+def _campaign_files(d: Diagnosis) -> dict[str, str | bytes]:
+    """The comparison with the answer before, and the case with the added readings; empty without added readings."""
+    record = campaign_record(d)
+    if record is None:
+        return {}
+    copy = {f"{CAMPAIGN}/{name}": content for name, content in case_files(d.given).items()}
+    return {f"{CAMPAIGN}.json": json.dumps(record, indent=1, ensure_ascii=False) + "\n", **copy}
 
 
 def drawings(d: Diagnosis, extra: DescribedDiscrepancy | None) -> dict[str, str | bytes]:

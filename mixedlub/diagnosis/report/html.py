@@ -69,7 +69,10 @@ CAPTIONS = {
     ),
     "heldout": (GAIN, "Error on whole levels of conditions that were left out of the fit."),
     "intervals": (GAIN, "Recorded readings against the 90 % predictive intervals."),
-    "next_test": (NEXT, "The recommended tests among the recorded conditions, and the information expected from each."),
+    "next_test": (
+        NEXT,
+        "The recommended tests among the recorded conditions, and the information that they promise together.",
+    ),
 }
 """Section and caption of each figure."""
 INSTEAD = {WHERE: MISMATCH, LEFT_OUT: UNNAMED}

@@ -96,27 +96,37 @@ MOST_ERROR_SHARE = 0.7
 CONDITIONS_WON = 0.75
 """Judgement. Share of the conditions in which a power law must predict left-out levels better: most of them."""
 
-# Next test
+# Next tests
 MOST_CONDITIONS = 600
 """Cost limit. Evaluated conditions."""
-SMALLEST_WEIGHT = 1e-12
-"""Judgement. Lower bound on the probability of an explanation in logarithms: below any relevant probability."""
 WORTH_TESTING = 0.01
-"""Judgement. Probability from which an explanation is included in the choice of a test: a hundred to one."""
-MOST_RIVALS = 5
-"""Cost limit. Explanations that a test has to separate."""
+"""Judgement. Probability from which an explanation competes for a test: a hundred to one."""
+MOST_RIVALS = 8
+"""Cost limit. Explanations that tests have to separate."""
 RIVAL_WEIGHT = 0.05
 """Judgement. Least weight of a rival in the choice of a test, so that improbable ones can still be excluded."""
-TESTS, TESTS_APART = 3, 2
-"""Judgement. Tests that are proposed, and the conditions in which each two differ: a short list without twins."""
+BATCH = 10
+"""Judgement. Tests of a batch: a morning on a rig."""
+BEYOND_TESTS, TESTS_APART = 3, 2
+"""Judgement. Tests beyond the recording, and the conditions in which each two differ: a short list without twins."""
 BEYOND_SPAN, BEYOND_LOWEST = 0.25, 0.6
 """Judgement. Tests beyond the recorded range: excess over the range, and least level over the lowest recorded."""
-INNER_QUANTILES = (0.0, 0.33, 0.67, 1.0)
-"""Grid. Quantiles of the levels of a condition that represent all levels."""
+INNER_LEVELS = 4
+"""Grid. Recorded levels of a condition that are tried, together with one in the middle of each two."""
 TEST_LEVELS = 8
 """Cost limit. Levels of a condition that are tried."""
-HERMITE_NODES = 21
-"""Cost limit. Gauss-Hermite nodes of the integral over a reading."""
+TEST_DIGITS = 3
+"""Judgement. Digits of a level between two recorded ones: as a rig is set."""
+WIDE_RATIO = 3.0
+"""Judgement. Ratio of the highest to the lowest level from which a level between two is their geometric mean."""
+LEAST_SHARED = 0.03
+"""Judgement. Shared uncertainty, over the noise of a reading, below which it is left out: 0.1 % in squares."""
+CHOICE_DRAWS, STATED_DRAWS = 96, 1000
+"""Cost limit. Simulated outcomes for the choice of a test, and for the stated numbers (chance known to 1.3 %)."""
+CHANCE_OF_SETTLED = 0.8
+"""Judgement. Chance of a settled answer for which the readings are counted: four to one."""
+MOST_READINGS = 60
+"""Cost limit. Readings up to which this chance is looked for: more are another programme."""
 
 # Where the mismatch lies, and what lies beyond the recording
 NO_MISMATCH = 1e-9

@@ -9,9 +9,9 @@ import numpy as np
 from mixedlub.diagnosis.assessment.power_law import DescribedDiscrepancy
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
-from mixedlub.diagnosis.labels import axis_label, conditions_text, explanation_words, words_of
+from mixedlub.diagnosis.labels import axis_label, explanation_words, words_of
 from mixedlub.diagnosis.report.figures import maps
-from mixedlub.diagnosis.report.figures.style import AFTER, BEFORE, FAULT, GRID, INK, MUTED, SERIES, UNNAMED, blank
+from mixedlub.diagnosis.report.figures.style import AFTER, BEFORE, FAULT, GRID, INK, MUTED, UNNAMED, blank
 from mixedlub.diagnosis.report.text.headline import chance
 from mixedlub.diagnosis.report.text.words import distinguishable
 from mixedlub.diagnosis.settings.assessment import TIE
@@ -163,7 +163,7 @@ def empirical_form(d: Diagnosis, extra: DescribedDiscrepancy) -> Figure | None:
 
 def next_test(d: Diagnosis) -> Figure | None:
     """Recommended tests among the recorded conditions, with their expected information."""
-    tests = [t for t in d.next_tests if t.expected_bits >= USELESS_TEST]
+    tests = list(d.batch.tests) if d.batch.expected_bits >= USELESS_TEST else []
     frame = maps.frame_of(d)
     if not tests or not frame.across or not frame.up:
         return None
@@ -177,24 +177,19 @@ def next_test(d: Diagnosis) -> Figure | None:
     for place, t in enumerate(tests):
         at.setdefault((float(t.conditions[frame.across]), float(t.conditions[frame.up])), []).append(place)
     for (x, y), members in at.items():
-        left.scatter(x, y, s=150, marker="*", color=SERIES[members[0]], edgecolors="white", linewidths=0.6, zorder=3)
+        left.scatter(x, y, s=120, marker="*", color=AFTER, edgecolors="white", linewidths=0.6, zorder=3)
         text = ", ".join(str(m + 1) for m in members)
-        left.annotate(text, (x, y), xytext=(7, 5), textcoords="offset points", fontweight="bold")
+        left.annotate(text, (x, y), xytext=(6, 4), textcoords="offset points", fontweight="bold", fontsize=6.8)
     left.set_xlabel(axis_label(frame.across))
     left.set_ylabel(axis_label(frame.up))
     left.margins(0.1)
     left.legend(loc="best")
     bits = [t.expected_bits for t in tests]
-    right.barh(range(len(tests)), bits, height=0.3, color=SERIES[: len(tests)])
-    for place, t in enumerate(tests):
-        text = conditions_text(t.conditions)
-        right.annotate(f"{place + 1}: {_folded(text)}", (0.0, place - 0.2), fontsize=6.8, va="bottom")
-    right.set_yticks([])
-    right.set_ylim(len(tests) - 0.55, -0.85)
-    right.set_xlim(0.0, max(1.1 * max(bits), 0.1))
-    right.set_xlabel("expected information of one reading (bit)")
-    right.locator_params(axis="x", nbins=5)
-    right.grid(axis="y", visible=False)
+    right.plot(range(1, len(tests) + 1), bits, "o-", ms=3.5, color=AFTER)
+    right.set_xlabel("readings of the batch")
+    right.set_ylabel("expected information (bit)")
+    right.set_ylim(0.0, max(1.1 * max(bits), 0.1))
+    right.xaxis.get_major_locator().set_params(integer=True)
     return figure
 
 

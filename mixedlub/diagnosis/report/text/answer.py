@@ -11,13 +11,16 @@ from mixedlub.case.forward import Forward
 from mixedlub.case.simulation import conditions_of
 from mixedlub.case.validity import judge_rows
 from mixedlub.chain.priors import Prior
+from mixedlub.diagnosis.assessment.campaign import Standing
+from mixedlub.diagnosis.assessment.experiment_design import NextTest
 from mixedlub.diagnosis.assessment.prediction import Refined
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING
 from mixedlub.diagnosis.labels import in_units_of_case
 from mixedlub.diagnosis.report.text.location_text import located
-from mixedlub.diagnosis.report.text.next_test_text import beyond
+from mixedlub.diagnosis.report.text.next_test_text import needed_readings
 from mixedlub.diagnosis.settings.inference import INTERVAL_ENDS, NINETY
+from mixedlub.recording.readings import rows_of
 from mixedlub.schema.findings import as_records
 from mixedlub.schema.table import Table
 
@@ -60,15 +63,9 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
             "folds": d.heldout.folds,
         },
         "outlier_runs": d.outlier_runs,
-        "next_tests": [
-            {
-                "conditions": t.conditions,
-                "separates": list(t.separates),
-                "expected_bits": t.expected_bits,
-                "text": "; ".join((*beyond(t.conditions, d.recorded.table), separating_text(d, t.separates))),
-            }
-            for t in d.next_tests
-        ],
+        "next_tests": [{**test_record(d, t), "readings": d.batch.readings} for t in d.batch.tests],
+        "next_batch": batch_record(d),
+        "tests_beyond": [{**test_record(d, t), "needs": list(t.needs)} for t in d.batch.beyond],
         "warnings": [str(one) for one in d.warnings],
         "findings": as_records(d.warnings),
         **({"hypotheses": [asdict(one) for one in d.hypotheses]} if d.hypotheses else {}),
@@ -137,6 +134,56 @@ def _value_and_interval(refined: Refined, prior: Prior, index: int, spread: floa
     return interval(prior, refined.z[index], spread)
 
 
+def test_record(d: Diagnosis, test: NextTest) -> dict[str, Any]:
+    """One of the next tests."""
+    return {
+        "conditions": test.conditions,
+        "separates": list(test.separates),
+        "expected_bits": test.expected_bits,
+        "text": separating_text(d, test.separates),
+    }
+
+
+def batch_record(d: Diagnosis) -> dict[str, Any]:
+    """The next tests together: their joint information, the rivals, and the readings for a settled answer."""
+    batch = d.batch
+    return {
+        "expected_bits": batch.expected_bits,
+        "readings": batch.readings,
+        "chance": batch.chance,
+        "settled": batch.settled,
+        "rivals": [{"explanation": list(key.ids), "probability": weight} for key, weight in batch.rivals],
+        "text": needed_readings(batch),
+    }
+
+
+def campaign_record(d: Diagnosis) -> dict[str, Any] | None:
+    """The contents of `campaign.json`; None without added readings."""
+    campaign = d.campaign
+    if campaign is None:
+        return None
+    return {
+        "schema": "mixedlub-campaign/1",
+        "case": d.case.name,
+        "added_runs": list(campaign.runs),
+        "readings": len(rows_of(d.given)),
+        "before": _standing_record(campaign.before),
+        "after": _standing_record(campaign.after),
+        "expected_bits": campaign.expected_bits,
+        "realised_bits": campaign.realised_bits,
+    }
+
+
+def _standing_record(standing: Standing) -> dict[str, Any]:
+    shares = standing.explanations.items()
+    return {
+        "verdict": list(standing.verdict),
+        "tied": [list(ids) for ids in standing.tied],
+        "probabilities": dict(standing.probabilities),
+        "explanations": [{"explanation": list(ids), "probability": share} for ids, share in shares],
+    }
+
+
 def separating_text(d: Diagnosis, names: tuple[str, ...]) -> str:
     """Tests of the catalogue that separate the named effects."""
     ids = [part for name in names for part in name.split("+") if part not in NOTHING.ids + DISCREPANCY.ids]
@@ -155,6 +202,19 @@ def predictions(d: Diagnosis) -> pd.DataFrame:
             words = pd.Series(_validity(d, p.table), name="validity")
             parts.append(pd.concat([columns, conditions_of(d.case, p.table), words], axis=1))
     return pd.concat(parts, ignore_index=True).drop_duplicates("run", ignore_index=True)
+
+
+def next_tests_table(d: Diagnosis) -> pd.DataFrame:
+    """The batch to fill in: run numbers after all others, conditions, and an empty reading."""
+    import pandas as pd
+
+    recorded = rows_of(d.given)
+    names = [c.name for c in d.case.kind.columns if c.name in recorded]
+    read = [*(c.name for c in d.case.kind.instrument_channels if c.name in recorded), d.case.quantity]
+    numbered = [p.table["run"].max() for p in (d.recorded, d.wanted) if p is not None]
+    rows = pd.DataFrame([t.conditions for t in d.batch.tests], columns=names)
+    rows.insert(0, "run", np.arange(1, len(rows) + 1) + int(max(numbered)))
+    return rows.assign(**dict.fromkeys(read, ""))
 
 
 def _validity(d: Diagnosis, table: Table) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Next test in words: conditions, expected information, and conditions beyond the recorded range."""
+"""Next tests in words: conditions, joint information, and tests beyond the recording."""
 
 from __future__ import annotations
 
@@ -6,13 +6,19 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from mixedlub.diagnosis.assessment.experiment_design import Batch
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import amount, conditions_text, explanation_words, range_text, words_of
+from mixedlub.diagnosis.settings.assessment import CHANCE_OF_SETTLED, MOST_READINGS
 from mixedlub.diagnosis.settings.report import USELESS_TEST, WEAK_TEST, WIDE_RANGE
 from mixedlub.recording.conditions import PASSING, noisy_set_point
 from mixedlub.recording.noise import setups_differ
 from mixedlub.schema.table import Table
+from mixedlub.study.plan import counted
 
+BATCH_FILE = "next_tests.csv"
+"""File of the answer with the batch to fill in."""
+TAKEN_IN = f"Fill in its last column and hand it back: mixedlub diagnose CASE --add {BATCH_FILE}."
 WAITED_FOR = ("time_s",)
 """Conditions reached by waiting."""
 SETUPS = (
@@ -22,34 +28,83 @@ SETUPS = (
 
 
 def next_test(d: Diagnosis) -> tuple[str, ...]:
-    """Recommended next test, or the statement that no test is useful."""
-    if d.posterior.verdict.is_discrepancy:
-        period = wave_period(d)
-        if period:
-            return (
-                f"Look for a part of the rig with a period of {period}, such as a thermostat or a rotating part. Read "
-                "at other intervals as well: a swing faster than the sampling appears with a longer period (aliasing).",
-            )
-        if d.search.discrepancy.best.form == "step" and d.search.discrepancy.best.axes[0] in PASSING:
-            moment = local_position(d)
-            return (f"Look up what was done to the rig or the sample at {moment}, and repeat a reading from before.",)
-        if d.search.discrepancy.best.form == "delay":
-            return ("Wait longer after a change of temperature, or run the same conditions in another order.",)
-        if set(d.search.discrepancy.best.axes) <= set(PASSING) and d.search.discrepancy.best.axes:
-            return ("It depends on time alone: run the programme again, in another order, and see whether it returns.",)
-        return _refined(d)
-    if not d.next_tests:
+    """Recommended next tests, or the statement that no test is useful."""
+    advice = _of_discrepancy(d) if d.posterior.verdict.is_discrepancy else ()
+    if advice and d.batch.settled:
+        return advice
+    return (*advice, *_of_batch(d), *_beyond(d))
+
+
+def _of_discrepancy(d: Diagnosis) -> tuple[str, ...]:
+    """Readings that show the form or the cause of a discrepancy."""
+    period = wave_period(d)
+    if period:
+        return (
+            f"Look for a part of the rig with a period of {period}, such as a thermostat or a rotating part. Read "
+            "at other intervals as well: a swing faster than the sampling appears with a longer period (aliasing).",
+        )
+    if d.search.discrepancy.best.form == "step" and d.search.discrepancy.best.axes[0] in PASSING:
+        moment = local_position(d)
+        return (f"Look up what was done to the rig or the sample at {moment}, and repeat a reading from before.",)
+    if d.search.discrepancy.best.form == "delay":
+        return ("Wait longer after a change of temperature, or run the same conditions in another order.",)
+    if set(d.search.discrepancy.best.axes) <= set(PASSING) and d.search.discrepancy.best.axes:
+        return ("It depends on time alone: run the programme again, in another order, and see whether it returns.",)
+    return _refined(d)
+
+
+def _of_batch(d: Diagnosis) -> tuple[str, ...]:
+    """The batch in words: its first test, its information, and the readings it takes."""
+    batch = d.batch
+    if len(batch.rivals) < 2 or not batch.tests:
         return ("No useful test: there is no second explanation to distinguish from the first.",)
-    first = d.next_tests[0]
-    if first.expected_bits < USELESS_TEST:
-        return ("No useful test: no single reading at these conditions or a little beyond would decide more.",)
+    first, table = batch.tests[0], d.recorded.table
     names = "; ".join(explanation_words(name.split("+")) for name in first.separates)
-    weak = ("No single reading would decide much; the best one is:",) if first.expected_bits < WEAK_TEST else ()
-    run = (
-        f"{to_run(first.conditions, d.recorded.table)}, to distinguish between {names}: {first.expected_bits:.2f} bit "
-        "(1 bit decides between two equally probable ones)."
+    run = to_run(first.conditions, table)
+    if batch.settled:
+        rival = next(explanation_words(key.ids) for key, _ in batch.rivals if key != d.posterior.verdict)
+        return (f"{run}: of all single readings, this is the most likely to refute the answer, against {rival}.",)
+    if batch.expected_bits < USELESS_TEST:
+        return ("No useful test: no readings at these conditions would decide more.",)
+    weak = ("No readings at these conditions would decide much; the best ones are:",)
+    together = (
+        f"{counted(len(batch.tests), 'reading')}, listed in {BATCH_FILE}, to distinguish between {names}: together "
+        f"{batch.expected_bits:.2f} bit (1 bit decides between two equally probable ones). The first: {run}."
     )
-    return (*weak, run, *(f"{text[:1].upper()}{text[1:]}." for text in beyond(first.conditions, d.recorded.table)))
+    return (*(weak if batch.expected_bits < WEAK_TEST else ()), together, needed_readings(batch), TAKEN_IN)
+
+
+def needed_readings(batch: Batch) -> str:
+    """Readings for a settled answer, as a sentence.
+
+    >>> needed_readings(Batch(readings=14, chance=0.7))
+    'About 14 such readings give a chance of 80 % that one explanation is left.'
+    >>> needed_readings(Batch(chance=0.1))
+    'No 60 readings at these conditions give a chance of 80 % that one explanation is left; after the batch it is 10 %.'
+    >>> needed_readings(Batch(settled=True))
+    'One explanation is left already.'
+    """
+    if batch.settled:
+        return "One explanation is left already."
+    share = f"{100 * CHANCE_OF_SETTLED:.0f} %"
+    if batch.readings is None:
+        return (
+            f"No {MOST_READINGS} readings at these conditions give a chance of {share} that one explanation is left; "
+            f"after the batch it is {100 * batch.chance:.0f} %."
+        )
+    return f"About {counted(batch.readings, 'such reading')} give a chance of {share} that one explanation is left."
+
+
+def _beyond(d: Diagnosis) -> tuple[str, ...]:
+    """The best test beyond the recording, if it tells more than the best single one inside."""
+    own = d.batch.tests[0].expected_bits if d.batch.tests else 0.0
+    if not d.batch.beyond or d.batch.beyond[0].expected_bits < max(own, WEAK_TEST) or d.batch.settled:
+        return ()
+    test = d.batch.beyond[0]
+    return (
+        f"Beyond the recording a single reading could tell {test.expected_bits:.2f} bit, if the laws hold there: "
+        f"{to_run(test.conditions, d.recorded.table)}. It needs {'; '.join(test.needs)}.",
+    )
 
 
 def to_run(conditions: Mapping[str, float | str], recorded: Table) -> str:
@@ -131,22 +186,3 @@ def box_place(d: Diagnosis) -> str:
         else:
             ranges.append(range_text({"column": name, "low": float(within.min()), "high": float(within.max())}))
     return " and ".join(ranges)
-
-
-def beyond(conditions: Mapping[str, float | str], recorded: Table) -> tuple[str, ...]:
-    """Conditions of a test outside the recorded range; empty if all are inside.
-
-    >>> import numpy as np
-    >>> beyond({"speed_rpm": 4000.0, "torque_Nm": 50.0}, Table({"speed_rpm": np.array([500.0, 3000.0])}))
-    ('beyond the recorded range: speed 4000 rpm (recorded up to 3000 rpm)',)
-    """
-    outside = []
-    for name, value in conditions.items():
-        if isinstance(value, str) or name not in recorded:
-            continue
-        low, high = float(recorded[name].min()), float(recorded[name].max())
-        if value > high:
-            outside.append(f"{words_of(name)} {amount(value, name)} (recorded up to {amount(high, name)})")
-        elif value < low:
-            outside.append(f"{words_of(name)} {amount(value, name)} (recorded down to {amount(low, name)})")
-    return (f"beyond the recorded range: {', '.join(outside)}",) if outside else ()

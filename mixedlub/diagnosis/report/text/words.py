@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.plain_text import plain_equation
+from mixedlub.diagnosis.assessment.campaign import Campaign
 from mixedlub.diagnosis.assessment.identifiability import confusion
 from mixedlub.diagnosis.assessment.power_law import Absorbed, DescribedDiscrepancy
 from mixedlub.diagnosis.diagnose import Diagnosis
@@ -23,7 +24,15 @@ from mixedlub.diagnosis.labels import (
     words_of,
 )
 from mixedlub.diagnosis.report.text.alternatives import AS_IF_NOTHING, alternatives
-from mixedlub.diagnosis.report.text.headline import doubts, headline, lesser, p_words, probabilities, probability_words
+from mixedlub.diagnosis.report.text.headline import (
+    chance,
+    doubts,
+    headline,
+    lesser,
+    p_words,
+    probabilities,
+    probability_words,
+)
 from mixedlub.diagnosis.report.text.hypotheses import hypotheses
 from mixedlub.diagnosis.report.text.location_text import where
 from mixedlub.diagnosis.report.text.nearest_effect import nearest_name
@@ -32,10 +41,12 @@ from mixedlub.diagnosis.report.text.outlier_text import checked_channel, outlier
 from mixedlub.diagnosis.report.text.tables import calibration, parameters
 from mixedlub.diagnosis.settings.inference import STRONG_EVIDENCE
 from mixedlub.diagnosis.settings.report import MOST_SIMILAR, NOT_BETTER
+from mixedlub.study.plan import counted
 
 WIDTH = 80
 REFITTED = "Parameters were refitted without each level; the answer itself was selected with all levels."
 ANSWER = "Answer"
+CHANGED = "What did the added readings change?"
 MISMATCH = "Is there a mismatch beyond noise and calibration?"
 WHERE = "Where?"
 LEFT_OUT = "What was left out?"
@@ -77,6 +88,7 @@ def sections(d: Diagnosis, unnamed: DescribedDiscrepancy | None = None) -> list[
     resemblance, separating = alternatives(d, confusion(d.search))
     parts = [
         Section(ANSWER, (headline(d), *probabilities(d)), alarms=doubts(d)),
+        *([] if d.campaign is None else [_changed(d.campaign)]),
         Section(MISMATCH, (*_mismatch(d), *shrunk_noise(d))),
         Section(WHERE, where(d)),
         _left_out(d),
@@ -92,6 +104,21 @@ def sections(d: Diagnosis, unnamed: DescribedDiscrepancy | None = None) -> list[
         Section("Warnings", lesser(d)),
     ]
     return [s for s in parts if s.sentences or s.table or s.items]
+
+
+def _changed(campaign: Campaign) -> Section:
+    """The answers before and after the added readings, side by side."""
+    runs = f"run {campaign.runs[0]}" + (f" to {campaign.runs[-1]}" if len(campaign.runs) > 1 else "")
+    then, now = campaign.before, campaign.after
+    sentence = (
+        f"{counted(len(campaign.runs), 'reading')} ({runs}) told {campaign.realised_bits:.2f} bit about the "
+        f"explanation, where {campaign.expected_bits:.2f} bit was expected on average."
+    )
+    table = [("explanation", "before", "after")]
+    for ids, after in sorted(now.explanations.items(), key=lambda item: -item[1]):
+        before = then.explanations.get(ids)
+        table.append((explanation_words(ids), "not listed" if before is None else chance(before), chance(after)))
+    return Section(CHANGED, (sentence,), tuple(table))
 
 
 def as_text(title: str, parts: Iterable[Section]) -> str:
