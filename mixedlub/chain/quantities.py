@@ -146,6 +146,8 @@ payload_torque          | T_0        | N m     | constant torque that keeps its 
 running_friction        | T_r        | N m     | friction torque of the moving parts, signed with the speed
 drive_speed             | omega      | rad/s   | signed speed of a drive (m/s where a sliding speed is recorded)
 reference_speed         | omega_0    | rad/s   | largest speed of the recording, in the unit of drive_speed
+drive_acceleration      | alpha_omega | rad/s^2 | rate at which the speed of a drive changes
+inertia_scale           | J_0        | kg m^2  | typical torque of a drive over its largest acceleration
 temperature_difference  | theta_d    | K       | oil temperature over the mean of the recording, 0 where unknown
 inverse_load            | q_w        | -       | smallest load recorded over the load
 log_load                | l_F        | -       | ln of the load over the middle one recorded, 0 where none is told

@@ -9,6 +9,7 @@ from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
 from mixedlub.case.validity import judge_rows
 from mixedlub.data_checks.included import unmodelled_losses
+from mixedlub.data_checks.inertia import inertia_in_torque
 from mixedlub.data_checks.misread import NEGATIVE_SIGMAS, misread, sds
 from mixedlub.data_checks.mixed_units import of_odd_units
 from mixedlub.data_checks.placeholders import placeholders
@@ -78,6 +79,7 @@ def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> 
         *_parts(case, rows),
         *unmodelled_losses(case.system.recording.includes, forward),
         *_setups(case, rows),
+        *inertia_in_torque(forward),
         *_scarce(y),
         *of_odd_units(case, rows, y, base, FEWEST, SCARCE),
         *_more_than_put_in(case, rows, y),

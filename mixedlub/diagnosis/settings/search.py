@@ -16,6 +16,8 @@ LAW_ODDS = 0.02
 """Judgement. Prior odds that a step of the base model follows another published law, on a given rig."""
 FURTHER_LAW_ODDS = 0.1
 """Judgement. Odds of each further such step after the first: deviating laws occur together, on one rig or on none."""
+EXPECTED_CHANCE = 0.9
+"""Judgement. Prior probability of an effect that mechanics demands: a reading may have been corrected for it."""
 AFFECTED = 0.1
 """Judgement. Share of the largest change by an explanation from which a reading is affected: less is hardly seen."""
 
