@@ -8,6 +8,7 @@ from mixedlub.base_model.limits import FAR_FROM_OIL
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
 from mixedlub.case.validity import judge_rows
+from mixedlub.data_checks.faulty_stretches import faulty_stretches
 from mixedlub.data_checks.included import unmodelled_losses
 from mixedlub.data_checks.inertia import inertia_in_torque
 from mixedlub.data_checks.misread import NEGATIVE_SIGMAS, misread, sds
@@ -89,6 +90,7 @@ def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> 
         *_in_fahrenheit(case, rows),
         *_backwards(rows),
         *_stuck(case, rows, y, base),
+        *faulty_stretches(case),
         *placeholders(case.quantity, rows, y, base),
         *misread(case, rows, y, forward, other_sign),
         *both_signs(case, rows, y, other_sign),

@@ -21,6 +21,7 @@ from mixedlub.case.folder import (
 from mixedlub.case.forward import Forward
 from mixedlub.case.validity import judge_rows
 from mixedlub.data_checks.audit import audit
+from mixedlub.data_checks.faulty_stretches import set_aside
 from mixedlub.diagnosis.assessment.answer_checks import (
     answer_warnings,
     noise_notes,
@@ -53,7 +54,10 @@ from profiles.errors import InputError
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """Contents of the answer and their inputs; ``case`` is the ``given`` case with the selected noise."""
+    """Contents of the answer and their inputs; ``case`` is the ``given`` case with the selected noise.
+
+    ``faulty``: predictions of the readings that a fault of the instrument leaves out.
+    """
 
     given: Case
     case: Case
@@ -71,6 +75,7 @@ class Diagnosis:
     warnings: tuple[Finding, ...]
     excluded: tuple[str, ...] = ()
     noise_stated: bool = True
+    faulty: Predicted | None = None
 
     @property
     def readings(self) -> np.ndarray:
@@ -110,8 +115,10 @@ class Diagnosis:
 
     @property
     def outlier_runs(self) -> list[int]:
-        """Runs that are more probably outliers than not."""
-        return [int(r) for r in self.search.problem.rows["run"][self.outlier_chance > LIKELY]]
+        """Runs that are more probably outliers than not, those of a faulty channel included."""
+        wrong = self.search.problem.rows["run"][self.outlier_chance > LIKELY].tolist()
+        faulty = [] if self.faulty is None else self.faulty.table["run"].tolist()
+        return sorted(int(r) for r in (*wrong, *faulty))
 
 
 def diagnose_case(
@@ -147,12 +154,13 @@ def diagnosis_of(
     """Diagnose a case and predict the ``requested`` conditions."""
     find(list(exclude), "exclude")
     _refuse_level(level)
+    case, faulty, faults = set_aside(case)
     rows = rows_of(case)
     with collected() as assumed:
         new_rows = None if requested is None else at_programme_end(case, requested)
     forward = Forward(case, rows)
     checks = audit(case, rows, readings_of(case), forward)
-    warnings = [*case.notes, *assumed, *unpredicted_runs(case, new_rows), *forward.notes, *checks]
+    warnings = [*case.notes, *faults, *assumed, *unpredicted_runs(case, new_rows), *forward.notes, *checks]
     if forward.known.effects:
         named = ", ".join(effect_words(e.id) for e in forward.known.effects)
         warnings.append(finding("effects_known", f"part of the base model, so not looked for: {named}", "system.toml"))
@@ -180,6 +188,7 @@ def diagnosis_of(
     progress("predicting")
     recorded = averaged(search, decided, refined, rows)
     predicted = None if new_rows is None else averaged(search, decided, refined, new_rows)
+    left = None if faulty is None else averaged(search, decided, refined, faulty)
     outlier_chance = outlier_chances(search, decided, refined)
     columns = [c for c in case.kind.columns if c.name in rows]
     swept = {axis.name for axis in search.space.axes}
@@ -207,6 +216,7 @@ def diagnosis_of(
         all_warnings,
         left_out,
         noise_search.stated,
+        left,
     )
 
 

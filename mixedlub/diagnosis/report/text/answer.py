@@ -181,11 +181,11 @@ def separating_text(names: tuple[str, ...]) -> str:
 
 
 def predictions(d: Diagnosis) -> pd.DataFrame:
-    """Predictions of the recorded and requested rows, each run once, with conditions."""
+    """Predictions of the recorded and requested rows, each run once, with conditions; faulty readings behind others."""
     import pandas as pd
 
     parts = []
-    for p in (d.recorded, d.wanted):
+    for p in (d.recorded, d.faulty, d.wanted):
         if p is not None:
             numbers = {name: getattr(p, name) for name in PREDICTED}
             columns = pd.DataFrame({"run": p.table["run"], **numbers})
