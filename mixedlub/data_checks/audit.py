@@ -160,15 +160,15 @@ def _parts(case: Case, rows: Table) -> list[Finding]:
 
 
 def _setups(case: Case, rows: Table) -> list[Finding]:
-    """Several set-ups without a stated error between them."""
+    """Several set-ups without a stated error between them, which is then estimated."""
     if "setup" not in rows or setups_differ(case):
         return []
     count = np.unique(rows["setup"]).size
     if count < 2:
         return []
     text = (
-        f"{count} set-ups are treated as one: give the error that readings of one set-up share as noise.setup_relative "
-        "or noise.setup_absolute"
+        f"{count} set-ups: the error that readings of one set-up share is not stated, so it is estimated; state it "
+        "as noise.setup_relative or noise.setup_absolute where it is known"
     )
     return [finding("setups_pooled", text)]
 
@@ -282,8 +282,10 @@ def _in_fahrenheit(case: Case, rows: Table) -> list[Finding]:
 
 
 def _backwards(rows: Table) -> list[Finding]:
-    """A time that decreases from one row to the next: often a clock that restarts at every step."""
+    """A time that decreases within a set-up: often a clock that restarts at every step."""
     falls = np.flatnonzero(np.diff(rows["time_s"]) < 0.0) + 1 if "time_s" in rows else np.array([], dtype=int)
+    if falls.size and "setup" in rows:
+        falls = falls[rows["setup"][falls] == rows["setup"][falls - 1]]
     if not falls.size:
         return []
     times = "1 place" if falls.size == 1 else f"{falls.size} places"

@@ -78,6 +78,12 @@ LEAST_FREEDOM = 10
 OVERSTATED_VARIANCE = 0.25
 """Judgement. Variance of residuals over the stated one below which noise is overstated: half the stated noise."""
 
+# Errors of set-ups
+SETUP_SHARES = (0.003, 0.01, 0.03, 0.1, 0.3)
+"""Grid. Errors that readings of one set-up share, over the typical reading: more is physics or another specimen."""
+SETUP_WHITE_SHARES, FINER_SHARES = (1.0, 0.35, 0.12), (0.5, 0.6, 0.7, 0.85, 1.0, 1.2, 1.4, 1.7, 2.0)
+"""Grid. Shares of the noise that are left for single readings beside an error of set-ups, and factors on the best."""
+
 # Correlated noise
 LEAST_BATCHES = 16
 """Judgement. Batches from which the variance of their sums is estimated: its standard error is then 35 %."""
