@@ -33,6 +33,10 @@ entrainment_speed       | u          | m/s     | mean of the two surface speeds
 sliding_speed           | v_s        | m/s     | difference of the two surface speeds, without sign
 moes_load               | M          | -       | Moes' load parameter of a line contact
 isoviscous_ratio        | q_EI       | -       | asymptote of the isoviscous elastic film over the piezoviscous one
+first_speed             | v_0        | m/s     | sliding speed at the start of the recording
+held_speed              | v_k        | m/s     | sliding speeds held one after the other in a recording
+slip_since              | s_k        | m       | slip since each held speed began, at its first reading; 0 before
+slip_since_early        | s_o        | m       | the same if it began at the reading before
 slide_roll_ratio        | S          | -       | sliding speed over entrainment speed
 roll_angle              | theta      | rad     | pinion roll angle of the contact point
 path_fraction           | xi         | -       | place along the path of contact, 0 at its start and 1 at its end

@@ -37,6 +37,7 @@ from mixedlub.diagnosis.assessment.model_averaging import Predicted, averaged, l
 from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.assessment.prediction import Refined
 from mixedlub.diagnosis.assessment.published_laws import Contained, contained
+from mixedlub.diagnosis.assessment.step_evidence import mismatch_at_steps
 from mixedlub.diagnosis.assessment.validity import beyond_range, unpublished
 from mixedlub.diagnosis.assessment.verdict import judge
 from mixedlub.diagnosis.explanation import DISCREPANCY, Explanation
@@ -198,6 +199,9 @@ def diagnosis_of(
     laws = contained(search, decided.verdict)
     tests = next_tests(search, decided, refined, columns, varied)
     warnings += _cautions(search, decided, heldout, refined, recorded.predicted, outlier_chance > LIKELY)
+    if test.detected:
+        at_base = search.problem.single_reading_units(search.null_fit.residual)
+        warnings += mismatch_at_steps(rows, [c.name for c in columns], at_base)
     all_warnings = tuple(warnings)
     return Diagnosis(
         given,
