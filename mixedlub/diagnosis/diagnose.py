@@ -24,6 +24,7 @@ from mixedlub.data_checks.audit import audit
 from mixedlub.data_checks.faulty_stretches import set_aside
 from mixedlub.diagnosis.assessment.answer_checks import (
     answer_warnings,
+    failed_warning,
     noise_notes,
     overdispersion_warning,
 )
@@ -238,7 +239,7 @@ def _cautions(
     read = (case.quantity, f"{case.quantity}_sd", case.system.recording.check)
     taken_at = Table({n: v for n, v in rows.columns.items() if n not in read}, rows.source)
     at_one_place = judged.verdict == DISCREPANCY and search.discrepancy.best.at is not None
-    said = overdispersion_warning(judged)
+    said = [*overdispersion_warning(judged), *failed_warning(judged, problem.y.size)]
     said += answer_warnings(judged.verdict, kept, taken_at, problem.inverse(problem.y), predicted, wrong, at_one_place)
     if judged.verdict.is_discrepancy:
         return said

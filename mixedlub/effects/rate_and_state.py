@@ -22,14 +22,17 @@ from mixedlub.laws.state_friction import held_weights, with_rate_and_state
             symbol="o",
         ),
     ),
-    equation=r"\mu_B \leftarrow \mu_B + a\ln\frac{v_s}{v_0} + b\ln\sum_k w_k\frac{v_0}{v_k},\quad "
-    r"w_k = e^{-x_{k+1}/D_c} - e^{-x_k/D_c},\quad x_k = (1 - o)s_k + o\,s_o",
+    equation=r"\mu_B \leftarrow \mu_B + a\ln\frac{v_s}{v_0} + b\ln\sum_{k=1} w_k\frac{v_0}{v_k},\quad "
+    r"w_k = \Delta e^{-x_k/D_c},\quad x_k = (1 - o)s_k + o\,s_o",
     source="J. H. Dieterich, J. Geophys. Res. 84 (1979) 2161: a and b near 0.01, slip of micrometres; its law of "
     "ageing, solved for speeds v_k held one after the other",
-    fingerprint={"speed": "-"},
+    fingerprint={"speed": "+"},
     separated_by="steps of speed up and down and a hold: friction jumps the one way at once and relaxes the other way "
     "over the same slip; contacts age at rest too, so that friction after a hold grows with its logarithm",
-    applied_after=("tribofilm_growth", "friction_run_in", "two_time_scales", "friction_event", "running_in"),
+    applied_after=(
+        *("tribofilm_growth", "friction_run_in", "two_time_scales", "friction_event", "running_in"),
+        *("boundary_film_temperature", "boundary_speed_dependence", "wandering_surface_state"),
+    ),
     kinds=("friction_history",),
     prior_odds=0.5,
 )

@@ -13,7 +13,7 @@ LEAST_FRICTION = 1e-3
 
 
 def held_weights(slip: np.ndarray, early: np.ndarray, slip_length: float, onset: float) -> np.ndarray:
-    r"""Weight (-) of each speed held so far in the state of the contacts; they add up to one.
+    r"""Weights of the speeds held so far in the state of the contacts, which add up to one (-).
 
     .. math:: w_k = e^{-s_{k+1}/D_c} - e^{-s_k/D_c}
 
@@ -33,7 +33,7 @@ def held_weights(slip: np.ndarray, early: np.ndarray, slip_length: float, onset:
 def with_rate_and_state(
     friction: np.ndarray, speed_share: np.ndarray, direct: float, evolution: float, age: np.ndarray
 ) -> np.ndarray:
-    r"""Friction coefficient (-) with a direct effect of speed, and one of the logarithm of the age of contacts.
+    r"""Friction coefficient with a direct effect of speed, and an effect of the age of contacts (-).
 
     .. math:: \mu \leftarrow \mu + a\ln(v/v_0) + b\ln(\theta v_0/D_c)
 

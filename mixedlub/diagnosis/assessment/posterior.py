@@ -18,12 +18,16 @@ from mixedlub.diagnosis.settings.assessment import FLOOR, TEST_MARGIN, TIE
 
 @dataclass(frozen=True)
 class Posterior:
-    """Probability of every explanation, the verdict first; ``overdispersion`` divided the log odds between effects."""
+    """Probability of every explanation, the verdict first; ``overdispersion`` divided the log odds between effects.
+
+    ``failed``: the most probable explanation but for its outliers, with their number, if it names nothing therefore.
+    """
 
     weights: Mapping[Explanation, float]
     verdict: Explanation
     tied: tuple[Explanation, ...]
     overdispersion: float = 1.0
+    failed: tuple[Explanation, int] | None = None
 
     def inclusion(self, search: Search) -> dict[str, float]:
         """Probability that each effect is part of the explanation; none and unknown as explanations."""

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut, LevelsOut
 from mixedlub.diagnosis.assessment.mismatch_test import Mismatch
 from mixedlub.diagnosis.assessment.posterior import Posterior, posterior
+from mixedlub.diagnosis.assessment.step_evidence import outliers_after_steps
 from mixedlub.diagnosis.explanation import DISCREPANCY, Explanation
 from mixedlub.diagnosis.inference.change_points import change_point_coordinates
 from mixedlub.diagnosis.inference.likelihood import outlier_chance
 from mixedlub.diagnosis.search.search import Search
-from mixedlub.diagnosis.settings.assessment import VALIDATED
+from mixedlub.diagnosis.settings.assessment import FAILED_PENALTY, FAILED_SHARE, VALIDATED
 from mixedlub.diagnosis.settings.inference import LIKELY
 
 
@@ -19,36 +22,53 @@ def judge(search: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
     """Posterior probabilities, with cross-validation of the verdict and of all tied explanations.
 
     Beyond VALIDATED explanations, the others get the least penalty of these. The discrepancy is compared with the first
-    effects. If even the best of them is overdispersed on left-out levels, the odds between effects are reduced.
+    effects. If even the best of them is overdispersed on left-out levels, the odds between effects are reduced. An
+    explanation that takes a third of the readings, or readings after most steps of a condition, for outliers, fails.
     """
     levels = LevelsOut.of(search)
+    failing = {key: count for key in search.fits if key.effects and (count := failures(search, key))}
+    against_failed = dict.fromkeys(failing, FAILED_PENALTY)
     weights = search.log_weights
     names = sorted((key for key in search.scores if key.effects), key=lambda key: -weights[key])
     tried: dict[Explanation, tuple[HeldOut, float]] = {}
     discrepancy_penalty: dict[Explanation, float] = {}
+    sound = [key for key in names if key not in failing]
     while True:
         penalties = {key: log_odds_penalty for key, (_, log_odds_penalty) in tried.items()}
         if len(tried) >= VALIDATED and all(penalties.values()):
             rest = min(penalties.values())
             penalties = {key: penalties.get(key, rest) for key in names}
+        penalties |= against_failed
         judged = posterior(search, test, penalties | discrepancy_penalty)
         first = judged.verdict
         # Other levels cannot predict a change point.
         if first in tried and not change_point_coordinates(search.problem, first):
             overdispersion = min(kept.overdispersion for kept, _ in tried.values())
             judged = posterior(search, test, penalties | discrepancy_penalty, overdispersion)
-        if names and DISCREPANCY in judged.tied and not discrepancy_penalty:
-            if names[0] not in tried:
-                tried[names[0]] = _cross_validated(levels, search, names[0])
+        if sound and DISCREPANCY in judged.tied and not discrepancy_penalty:
+            if sound[0] not in tried:
+                tried[sound[0]] = _cross_validated(levels, search, sound[0])
             outliers = outlier_chance(search.discrepancy.fit.residual) > LIKELY
-            against = levels.held(DISCREPANCY, outliers).penalty_against(tried[names[0]][0])
+            against = levels.held(DISCREPANCY, outliers).penalty_against(tried[sound[0]][0])
             discrepancy_penalty = {DISCREPANCY: against}
             continue
         fresh = [key for key in judged.tied if key not in tried and key.effects]
         if not fresh or len(tried) >= VALIDATED:
             key = judged.verdict
+            if names and names[0] in failing and not key.effects:
+                judged = replace(judged, failed=(names[0], failing[names[0]]))
             return judged, (tried.get(key) or _cross_validated(levels, search, key))[0]
         tried[fresh[0]] = _cross_validated(levels, search, fresh[0])
+
+
+def failures(search: Search, key: Explanation) -> int:
+    """Number of readings that an explanation takes for outliers, if so many or so placed that it fails; else 0."""
+    problem, residual = search.problem, search.fits[key].residual
+    wrong = outlier_chance(problem.single_reading_units(residual)) > LIKELY
+    names = [c.name for c in problem.case.kind.columns]
+    if wrong.mean() > FAILED_SHARE or outliers_after_steps(problem.rows, names, wrong, residual):
+        return int(wrong.sum())
+    return 0
 
 
 def _cross_validated(levels: LevelsOut, search: Search, key: Explanation) -> tuple[HeldOut, float]:

@@ -24,8 +24,6 @@ from mixedlub.recording.noise import setups_differ
 from mixedlub.recording.readings import rows_of
 from mixedlub.schema import system_file
 
-NONE = (0.0, 0.0)
-
 
 def with_setup_error(case: Case, relative: float, absolute: float) -> Case:
     """The case with an error of this size that readings of one set-up share."""
@@ -53,7 +51,7 @@ def search_setup_error(search: Search, least: float, trial: Callable[[Case], Sea
     if not has_groups(search.problem.case):
         return search, 1.0
     (relative, absolute), times = most_probable(search, least)
-    if (relative, absolute) == NONE:
+    if not (relative or absolute):
         return search, 1.0
     return trial(with_setup_error(scaled(search.problem.case, times), relative, absolute)), times
 
@@ -85,7 +83,7 @@ def most_probable(search: Search, least: float) -> tuple[tuple[float, float], fl
     finer = [(which, error, min(factor * times, 1.0)) for factor in FINER_SHARES if factor * times >= least]
     best = max([(which, error, times), *finer], key=lambda form: log_probability(*form))
     if log_probability(*best) <= max(weights.values()) + DRIFT_GAIN:
-        return NONE, 1.0
+        return (0.0, 0.0), 1.0
     return error, best[2]
 
 
