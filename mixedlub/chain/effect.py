@@ -84,7 +84,8 @@ class Effect(Law):
     law defines the effect, so no error of form is considered. ``needs_variation_in``: the effect is not offered at a
     single value of this quantity, where it would only rescale the base model. ``offered_within``: ranges of base
     quantities which must contain most rows of a recording. ``replaces``: step of the base model replaced by a law that
-    adds no physics. ``valid``: range common to all its laws. ``also_valid``: range of some laws, by parameter values.
+    adds no physics. ``expected``: acts by mechanics wherever its quantities exist, so that its absence has to be shown.
+    ``valid``: range common to all its laws. ``also_valid``: range of some laws, by parameter values.
     """
 
     stage: str
@@ -101,6 +102,7 @@ class Effect(Law):
     needs_variation_in: str = ""
     offered_within: Ranges = field(default_factory=dict)
     replaces: str = ""
+    expected: bool = False
     fixed: Mapping[str, float] = field(default_factory=dict)
     also_valid: Callable[[Mapping[str, float]], Ranges] | None = None
     margin: ClassVar[str] = ""

@@ -33,6 +33,10 @@ entrainment_speed       | u          | m/s     | mean of the two surface speeds
 sliding_speed           | v_s        | m/s     | difference of the two surface speeds, without sign
 moes_load               | M          | -       | Moes' load parameter of a line contact
 isoviscous_ratio        | q_EI       | -       | asymptote of the isoviscous elastic film over the piezoviscous one
+first_speed             | v_0        | m/s     | sliding speed at the start of the recording
+held_speed              | v_k        | m/s     | sliding speeds held one after the other in a recording
+slip_since              | s_k        | m       | slip since each held speed began, at its first reading; 0 before
+slip_since_early        | s_o        | m       | the same if it began at the reading before
 slide_roll_ratio        | S          | -       | sliding speed over entrainment speed
 roll_angle              | theta      | rad     | pinion roll angle of the contact point
 path_fraction           | xi         | -       | place along the path of contact, 0 at its start and 1 at its end
@@ -146,6 +150,8 @@ payload_torque          | T_0        | N m     | constant torque that keeps its 
 running_friction        | T_r        | N m     | friction torque of the moving parts, signed with the speed
 drive_speed             | omega      | rad/s   | signed speed of a drive (m/s where a sliding speed is recorded)
 reference_speed         | omega_0    | rad/s   | largest speed of the recording, in the unit of drive_speed
+drive_acceleration      | alpha_omega | rad/s^2 | rate at which the speed of a drive changes
+inertia_scale           | J_0        | kg m^2  | typical torque of a drive over its largest acceleration
 temperature_difference  | theta_d    | K       | oil temperature over the mean of the recording, 0 where unknown
 inverse_load            | q_w        | -       | smallest load recorded over the load
 log_load                | l_F        | -       | ln of the load over the middle one recorded, 0 where none is told

@@ -8,7 +8,9 @@ from mixedlub.base_model.limits import FAR_FROM_OIL
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
 from mixedlub.case.validity import judge_rows
+from mixedlub.data_checks.faulty_stretches import faulty_stretches
 from mixedlub.data_checks.included import unmodelled_losses
+from mixedlub.data_checks.inertia import inertia_in_torque
 from mixedlub.data_checks.misread import NEGATIVE_SIGMAS, misread, sds
 from mixedlub.data_checks.mixed_units import of_odd_units
 from mixedlub.data_checks.placeholders import placeholders
@@ -78,6 +80,7 @@ def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> 
         *_parts(case, rows),
         *unmodelled_losses(case.system.recording.includes, forward),
         *_setups(case, rows),
+        *inertia_in_torque(forward),
         *_scarce(y),
         *of_odd_units(case, rows, y, base, FEWEST, SCARCE),
         *_more_than_put_in(case, rows, y),
@@ -87,6 +90,7 @@ def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> 
         *_in_fahrenheit(case, rows),
         *_backwards(rows),
         *_stuck(case, rows, y, base),
+        *faulty_stretches(case),
         *placeholders(case.quantity, rows, y, base),
         *misread(case, rows, y, forward, other_sign),
         *both_signs(case, rows, y, other_sign),
@@ -156,15 +160,15 @@ def _parts(case: Case, rows: Table) -> list[Finding]:
 
 
 def _setups(case: Case, rows: Table) -> list[Finding]:
-    """Several set-ups without a stated error between them."""
+    """Several set-ups without a stated error between them, which is then estimated."""
     if "setup" not in rows or setups_differ(case):
         return []
     count = np.unique(rows["setup"]).size
     if count < 2:
         return []
     text = (
-        f"{count} set-ups are treated as one: give the error that readings of one set-up share as noise.setup_relative "
-        "or noise.setup_absolute"
+        f"{count} set-ups: the error that readings of one set-up share is not stated, so it is estimated; state it "
+        "as noise.setup_relative or noise.setup_absolute where it is known"
     )
     return [finding("setups_pooled", text)]
 
@@ -278,8 +282,10 @@ def _in_fahrenheit(case: Case, rows: Table) -> list[Finding]:
 
 
 def _backwards(rows: Table) -> list[Finding]:
-    """A time that decreases from one row to the next: often a clock that restarts at every step."""
+    """A time that decreases within a set-up: often a clock that restarts at every step."""
     falls = np.flatnonzero(np.diff(rows["time_s"]) < 0.0) + 1 if "time_s" in rows else np.array([], dtype=int)
+    if falls.size and "setup" in rows:
+        falls = falls[rows["setup"][falls] == rows["setup"][falls - 1]]
     if not falls.size:
         return []
     times = "1 place" if falls.size == 1 else f"{falls.size} places"

@@ -21,8 +21,10 @@ from mixedlub.case.folder import (
 from mixedlub.case.forward import Forward
 from mixedlub.case.validity import judge_rows
 from mixedlub.data_checks.audit import audit
+from mixedlub.data_checks.faulty_stretches import set_aside
 from mixedlub.diagnosis.assessment.answer_checks import (
     answer_warnings,
+    failed_warning,
     noise_notes,
     overdispersion_warning,
 )
@@ -38,6 +40,7 @@ from mixedlub.diagnosis.assessment.model_averaging import Predicted, averaged, l
 from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.assessment.prediction import Refined
 from mixedlub.diagnosis.assessment.published_laws import Contained, contained
+from mixedlub.diagnosis.assessment.step_evidence import mismatch_at_steps
 from mixedlub.diagnosis.assessment.validity import beyond_range, unpublished
 from mixedlub.diagnosis.assessment.verdict import judge
 from mixedlub.diagnosis.explanation import DISCREPANCY, Explanation
@@ -59,6 +62,7 @@ class Diagnosis:
     """Contents of the answer and their inputs; ``case`` is the ``given`` case with the selected noise.
 
     ``campaign``: the answer before the last added readings, if any.
+    ``faulty``: predictions of the readings that a fault of the instrument leaves out.
     """
 
     given: Case
@@ -79,6 +83,7 @@ class Diagnosis:
     noise_stated: bool = True
     hypotheses: tuple[Hypothesis, ...] = ()
     campaign: Campaign | None = None
+    faulty: Predicted | None = None
 
     @property
     def readings(self) -> np.ndarray:
@@ -118,8 +123,10 @@ class Diagnosis:
 
     @property
     def outlier_runs(self) -> list[int]:
-        """Runs that are more probably outliers than not."""
-        return [int(r) for r in self.search.problem.rows["run"][self.outlier_chance > LIKELY]]
+        """Runs that are more probably outliers than not, those of a faulty channel included."""
+        wrong = self.search.problem.rows["run"][self.outlier_chance > LIKELY].tolist()
+        faulty = [] if self.faulty is None else self.faulty.table["run"].tolist()
+        return sorted(int(r) for r in (*wrong, *faulty))
 
 
 def diagnose_case(
@@ -162,12 +169,13 @@ def _diagnosis_of(
 ) -> Diagnosis:
     find(list(exclude), "exclude", case.laws)
     _refuse_level(level)
+    case, faulty, faults = set_aside(case)
     rows = rows_of(case)
     with collected() as assumed:
         new_rows = None if requested is None else at_programme_end(case, requested)
     forward = Forward(case, rows)
     checks = audit(case, rows, readings_of(case), forward)
-    warnings = [*case.notes, *assumed, *unpredicted_runs(case, new_rows), *forward.notes, *checks]
+    warnings = [*case.notes, *faults, *assumed, *unpredicted_runs(case, new_rows), *forward.notes, *checks]
     if forward.known.effects:
         named = ", ".join(effect_words(e.id) for e in forward.known.effects)
         warnings.append(finding("effects_known", f"part of the base model, so not looked for: {named}", "system.toml"))
@@ -197,6 +205,7 @@ def _diagnosis_of(
     progress("predicting")
     recorded = averaged(search, decided, refined, rows)
     predicted = None if new_rows is None else averaged(search, decided, refined, new_rows)
+    left = None if faulty is None else averaged(search, decided, refined, faulty)
     outlier_chance = outlier_chances(search, decided, refined)
     columns = [c for c in case.kind.columns if c.name in rows]
     swept = {axis.name for axis in search.space.axes}
@@ -206,6 +215,9 @@ def _diagnosis_of(
     laws = contained(search, decided.verdict)
     batch = next_batch(search, decided, refined, columns, varied)
     warnings += _cautions(search, decided, heldout, refined, recorded.predicted, outlier_chance > LIKELY)
+    if test.detected:
+        at_base = search.problem.single_reading_units(search.null_fit.residual)
+        warnings += mismatch_at_steps(rows, [c.name for c in columns], at_base)
     all_warnings = tuple(warnings)
     return Diagnosis(
         given,
@@ -225,6 +237,7 @@ def _diagnosis_of(
         left_out,
         noise_search.stated,
         hypotheses,
+        faulty=left,
     )
 
 
@@ -242,7 +255,7 @@ def _cautions(
     read = (case.quantity, f"{case.quantity}_sd", case.system.recording.check)
     taken_at = Table({n: v for n, v in rows.columns.items() if n not in read}, rows.source)
     at_one_place = judged.verdict == DISCREPANCY and search.discrepancy.best.at is not None
-    said = overdispersion_warning(judged)
+    said = [*overdispersion_warning(judged), *failed_warning(judged, problem.y.size)]
     said += answer_warnings(judged.verdict, kept, taken_at, problem.inverse(problem.y), predicted, wrong, at_one_place)
     if judged.verdict.is_discrepancy:
         return said

@@ -13,6 +13,7 @@ from mixedlub.kinds import columns, disc, oil_priors
 from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, inverse_load, programme
 from mixedlub.kinds.standard import DISCS, OIL, StandardRig
+from mixedlub.kinds.steps import held_speeds
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file
@@ -29,6 +30,8 @@ FRICTION_SPREAD = 1.0
 USUAL_PRESSURE = 1e9
 """Judgement. Typical Hertz pressure (Pa) of a ball on a disc in traction machines."""
 
+PURE_SLIDING = 2.0
+"""Definition. Sliding over entrainment speed of a body on one that rests."""
 UNKNOWN_SPEED = 1.0
 """Definition. Sliding speed (m/s) if none is recorded: any constant, since only its ratios matter."""
 
@@ -51,7 +54,7 @@ def resolved(system: system_file.System, table: Table) -> bool:
 def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table."""
     if resolved(system, table):
-        return {**disc.inputs(system, rig, table, recorded), **programme(table, recorded)}
+        return {**disc.inputs(system, rig, table, recorded), **programme(table, recorded), **_held(table, recorded)}
     absent = [name for name in NEEDED if name not in table]
     if system.contact is not None and system.lubricant is not None and system.surfaces:
         text = (
@@ -65,6 +68,7 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
         **bookkeeping_inputs(system, table),
         **inverse_load(system, table, recorded),
         **programme(table, recorded),
+        **_held(table, recorded),
         "boundary_friction": _level(system, recorded),
         "area_ratio": 0.0,
         "fluid_friction": 0.0,
@@ -93,6 +97,19 @@ def _conditions(table: Table, recorded: Table) -> Inputs:
     if "oil_temperature_C" in table:
         inputs["oil_temperature"] = column(table["oil_temperature_C"]) + ZERO_CELSIUS
     return inputs
+
+
+def _held(table: Table, recorded: Table) -> Inputs:
+    """Sliding speeds that were held one after the other, if the speed was stepped; without a ratio in pure sliding."""
+    name, ratio = "entrainment_speed_m_s", "slide_roll_ratio"
+    if not {name, "time_s"} <= set(table.columns) or not {name, "time_s"} <= set(recorded.columns):
+        return {}
+    sliding = float(np.median(np.abs(recorded[ratio]))) if ratio in recorded else PURE_SLIDING
+    held = held_speeds(table, recorded, name, sliding) if sliding > 0.0 else None
+    if held is None:
+        return {}
+    first = sliding * float(recorded[name][0])
+    return {"held_speed": held.speed, "slip_since": held.slip, "slip_since_early": held.early, "first_speed": first}
 
 
 def _friction_is_given(system: system_file.System) -> bool:

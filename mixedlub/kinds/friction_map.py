@@ -11,7 +11,7 @@ import numpy as np
 from mixedlub.chain.effect import Parameter
 from mixedlub.chain.model import Chain
 from mixedlub.chain.priors import LogNormal, LogUniform, Normal
-from mixedlub.kinds import columns
+from mixedlub.kinds import acceleration, columns
 from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out, inverse_load, programme
 from mixedlub.kinds.standard import StandardRig
@@ -75,6 +75,8 @@ LEAST_SCALE = 0.3
 """Judgement. Least typical size of the readings, as a share of their largest."""
 SIGNIFICANT = 2.5
 """Judgement. Difference between the slow and fast half of the readings, in standard deviations, that is significant."""
+STARTING = 1e-9
+"""Definition. Speed of a drive that starts, over the largest: any that has its direction."""
 BARE_SHARE = 0.3
 """Judgement. Prior of the friction of motor and sensor alone, relative to that of the complete drive."""
 
@@ -125,6 +127,7 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
     if "oil_temperature_C" in table:
         found["oil_temperature"] = column(table["oil_temperature_C"]) + ZERO_CELSIUS
     found.update(_motor_torque(table, recorded))
+    found.update(_acceleration(system, table, recorded, size))
     if "position_deg" in table:
         found["drive_angle"] = np.radians(column(table["position_deg"]))
     return found
@@ -172,13 +175,27 @@ def _motor_torque(table: Table, recorded: Table) -> Inputs:
     return {"reference_torque": float(np.max(np.abs(recorded[motor]))), "motor_torque": column(table[own])}
 
 
+def _acceleration(system: system_file.System, table: Table, recorded: Table, size: float) -> Inputs:
+    """Acceleration of a drive whose torque is read, and the moment of inertia that would need a typical torque."""
+    if acceleration.COLUMN not in table or system.recording.quantity != FRICTION_TORQUE.name:
+        return {}
+    largest = float(np.max(np.abs(acceleration.accelerated(recorded, recorded)[acceleration.COLUMN])))
+    changes = column(table[acceleration.COLUMN])
+    speed, size_of = column(drive_speed(table)), size / (largest or 1.0)
+    # A machine that starts already overcomes its dry friction.
+    starting = STARTING * np.sign(changes) * float(np.max(np.abs(drive_speed(recorded))))
+    moving = np.where(speed == 0.0, starting, speed)
+    return {"drive_acceleration": changes, "inertia_scale": size_of, "drive_speed": moving}
+
+
 def load_sense(table: Table) -> np.ndarray:
     """1 where the motor drives the load, -1 where the load drives the motor, 0 without load."""
     return np.sign(drive_speed(table) * table["torque_Nm"])
 
 
 def fill_channels(table: Table, recorded: Table) -> Table:
-    """Table with an added motor torque: shaft torque plus median friction, else the median motor torque."""
+    """Table with an added acceleration and motor torque: shaft torque plus median friction, else the motor's median."""
+    table = acceleration.accelerated(table, recorded)
     if MOTOR_TORQUE.name in table or MOTOR_TORQUE.name not in recorded:
         return table
     motor = recorded[MOTOR_TORQUE.name]
@@ -294,7 +311,10 @@ STANDARD = StandardRig(
         "additive_fraction": ("additive_percent", (0.0, 2.0)),
         "drive_angle": ("position_deg", tuple(np.linspace(0.0, 3600.0, 60))),
     },
-    channels=lambda columns, reading: {MOTOR_TORQUE.name: np.sign(columns["speed_rpm"]) * (1.0 + columns["torque_Nm"])},
+    channels=lambda columns, reading: {
+        MOTOR_TORQUE.name: np.sign(columns["speed_rpm"]) * (1.0 + columns["torque_Nm"]),
+        acceleration.COLUMN: 20.0 * np.cos(np.radians(columns["position_deg"])),
+    },
 )
 
 KIND = Kind(

@@ -9,6 +9,7 @@ import numpy as np
 
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
+from mixedlub.kinds.acceleration import stretches
 from mixedlub.kinds.kind import CONSTANT_WITHIN, varies
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.recording.set_points import roundest
@@ -121,7 +122,8 @@ def unrolled(values: np.ndarray, logarithmic: bool, symmetric_log: float) -> np.
 def clock_of(rows: Table, ties: bool = False) -> np.ndarray | None:
     """Column with the order of the readings; None if missing or with ties.
 
-    With ``ties`` half of the readings may share a time, as where a logger writes whole seconds.
+    With ``ties`` half of the readings may share a time, as where a logger writes whole seconds. Set-ups whose clock
+    starts again follow each other.
 
     >>> log = Table({"time_s": np.array([0.0, 1.0, 1.0, 2.0])}, "log")
     >>> clock_of(log), clock_of(log, ties=True).tolist()
@@ -130,8 +132,27 @@ def clock_of(rows: Table, ties: bool = False) -> np.ndarray | None:
     clock = next((rows[name] for name in ("sequence", "time_s") if name in rows), None)
     if clock is None:
         return None
+    clock = in_a_row(rows, clock)
     times = np.unique(clock).size
     return clock if times == clock.size or (ties and 2 * times > clock.size) else None
+
+
+def in_a_row(rows: Table, clock: np.ndarray) -> np.ndarray:
+    """The clock, or that of set-ups one after the other where each has its own.
+
+    >>> rows = {"time_s": np.array([0.0, 2.0, 0.0, 2.0]), "setup": np.array(["a", "a", "b", "b"])}
+    >>> in_a_row(Table(rows), rows["time_s"]).tolist()
+    [0.0, 2.0, 4.0, 6.0]
+    """
+    if "setup" not in rows or np.all(np.diff(clock) >= 0.0):
+        return clock
+    part = stretches(Table({"time_s": clock, "setup": rows["setup"]}))
+    if part[-1] + 1 > np.unique(rows["setup"]).size:
+        return clock
+    begins = np.flatnonzero(np.diff(part, prepend=-1))
+    steps = np.diff(clock, prepend=clock[0])
+    steps[begins[1:]] = np.median(np.abs(steps[steps != 0.0]))
+    return clock[0] + np.cumsum(steps)
 
 
 def is_constant(name: str, values: np.ndarray) -> bool:

@@ -95,6 +95,11 @@ class Column:
 LARGEST = 2**53
 """Largest integer up to which doubles represent all integers."""
 RUN = Column("run", "whole", meaning="number of the reading, each once")
+SETUP = "setup"
+GROUPS = ("specimen", "laboratory", "lab", "assembly", "campaign", "session", "file")
+"""Headers of columns that name groups of readings, in the order in which one is taken as the set-up."""
+MOST_GROUPS = 20
+"""Judgement. Most groups of such a column; more are names of single readings."""
 BOOKKEEPING = (
     Column("rig", "name", required=False, meaning="which rig or part of it; all share the calibration"),
     Column(
@@ -104,7 +109,7 @@ BOOKKEEPING = (
         required=False,
         meaning="place in the test programme, 0 at its start and 1 at its end",
     ),
-    Column("setup", "name", required=False, meaning="assembly or campaign; readings of one set-up share an error"),
+    Column(SETUP, "name", required=False, meaning="assembly, specimen or laboratory, whose readings share an error"),
 )
 
 
@@ -247,6 +252,7 @@ def _table(
     if doubled:
         raise InputError("column appears twice", where=where, value=sorted(doubled)[0])
     known = {c.name: c for c in columns}
+    header = _with_groups(lines, header, known, source)
     unknown = [name for name in header if name and name not in known]
     for column in columns:
         if column.required and column.name not in header:
@@ -267,6 +273,23 @@ def _table(
         rule = f"{named} must be unique" + (" together" if len(key) > 1 else "")
         raise InputError(rule, where=place, value=value[0] if len(key) == 1 else value)
     return Table(cells, source, tuple(unknown))
+
+
+def _with_groups(
+    lines: list[tuple[int, list[str]]], header: list[str], known: Mapping[str, Column], source: str
+) -> list[str]:
+    """The header with a column that names specimens or laboratories taken as the set-up, if there is no such column."""
+    if SETUP not in known or SETUP in header:
+        return header
+    for name in (word for word in GROUPS if word in header and word not in known):
+        place = header.index(name)
+        cells = [row[place].strip() for _, row in lines[1:] if place < len(row)]
+        count = [cells.count(value) for value in dict.fromkeys(cells)]
+        if 1 < len(count) <= MOST_GROUPS and min(count) > 1 and all(cells):
+            text = f"column taken as {SETUP}: its {len(count)} groups may each have an error of their own"
+            report(finding("column_as_setup", text, f"{source}, {name}"))
+            return [SETUP if cell == name else cell for cell in header]
+    return header
 
 
 _IMPORTED = "use `mixedlub import`, which reads it and writes the table of a case"

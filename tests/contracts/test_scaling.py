@@ -56,6 +56,14 @@ OTHER_ARGUMENTS = {
     "integral_temperature": (400.0, "K"),
     "scuffing_temperature": (500.0, "K"),
     "flash_weight": (1.5, "-"),
+    "slip": (np.array([[2e-3, 3e-5]]), "m"),
+    "early": (np.array([[2e-3, 4e-5]]), "m"),
+    "slip_length": (2e-5, "m"),
+    "onset": (0.3, "-"),
+    "speed_share": (3.0, "-"),
+    "direct": (0.008, "-"),
+    "evolution": (0.013, "-"),
+    "age": (0.7, "-"),
 }
 """Arguments of laws that are no words of the glossary: a value and its unit."""
 

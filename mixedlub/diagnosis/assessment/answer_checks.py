@@ -10,7 +10,7 @@ from mixedlub.diagnosis.assessment.cross_validation import HeldOut
 from mixedlub.diagnosis.assessment.mismatch_test import noise_share
 from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
-from mixedlub.diagnosis.labels import amount, words_of
+from mixedlub.diagnosis.labels import amount, effect_words, words_of
 from mixedlub.diagnosis.search.noise_inflation import NoiseInflation, best_inflation, noise_overstated
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.assessment import (
@@ -164,6 +164,18 @@ def overdispersion_warning(judged: Posterior) -> list[Finding]:
         "odds between effects were lowered"
     )
     return [finding("explanation_incomplete", text)]
+
+
+def failed_warning(judged: Posterior, count: int) -> list[Finding]:
+    """Doubt about an answer without a name because the best one fails by its outliers."""
+    if judged.failed is None:
+        return []
+    key, wrong = judged.failed
+    text = (
+        f"the best law found, {' and '.join(map(effect_words, key.effects))}, takes {wrong} of {count} readings for "
+        "outliers, in a share or after steps of a condition as no instrument has them: it fails, and no name is claimed"
+    )
+    return [finding("model_failed", text)]
 
 
 def outlier_streak(rows: Table, wrong: np.ndarray, residual: np.ndarray) -> list[int]:

@@ -17,12 +17,16 @@ from mixedlub.diagnosis.settings.assessment import FLOOR, TEST_MARGIN, TIE
 
 @dataclass(frozen=True)
 class Posterior:
-    """Probability of every explanation, the verdict first; ``overdispersion`` divided the log odds between effects."""
+    """Probability of every explanation, the verdict first; ``overdispersion`` divided the log odds between effects.
+
+    ``failed``: the most probable explanation but for its outliers, with their number, if it names nothing therefore.
+    """
 
     weights: Mapping[Explanation, float]
     verdict: Explanation
     tied: tuple[Explanation, ...]
     overdispersion: float = 1.0
+    failed: tuple[Explanation, int] | None = None
 
     def inclusion(self, search: Search) -> dict[str, float]:
         """Probability that each effect is part of the explanation; none and unknown as explanations."""
@@ -72,11 +76,14 @@ def posterior(
         log |= {key: log[key] + shift for key in names}
     if test.unexplained_scatter and log[NOTHING] > log[DISCREPANCY]:
         log[NOTHING], log[DISCREPANCY] = log[DISCREPANCY], log[NOTHING]
-    others = [value for key, value in log.items() if key != NOTHING]
-    best = max(others, default=-np.inf)
+    expected = set(search.prior_odds.expected)
+    usual = [key for key in log if expected.issuperset(key.effects) and not key.is_discrepancy]
+    # What mechanics demands needs no mismatch to be believed.
+    others = [key for key in log if key not in (usual, [NOTHING])[test.detected]]
+    best = max((log[key] for key in others), default=-np.inf)
     if test.detected and log[NOTHING] >= best:
         log[NOTHING] = best - np.log(TEST_MARGIN)
-    elif not test.detected and log[NOTHING] <= best:
+    elif not test.detected and max(log[key] for key in usual) <= best:
         log[NOTHING] = best + np.log(TEST_MARGIN)
     top = max(log.values())
     total = sum(np.exp(v - top) for v in log.values())

@@ -85,6 +85,8 @@ def _as_used(case: Case) -> dict[str, str | bytes]:
     system = case.system.model_dump(by_alias=True, exclude_unset=True)
     laws = law_files(case, system)
     return {AS_USED: to_toml(system), **{f"{AS_USED.rpartition('/')[0]}/{path}": text for path, text in laws.items()}}
+
+
 def _campaign_files(d: Diagnosis) -> dict[str, str | bytes]:
     """The comparison with the answer before, and the case with the added readings; empty without added readings."""
     record = campaign_record(d)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -20,6 +20,7 @@ from mixedlub.diagnosis.search.noise_inflation import (
     search_stated_noise,
 )
 from mixedlub.diagnosis.search.search import Progress, Search, continued, search, spread_rows
+from mixedlub.diagnosis.search.setup_error import search_setup_error
 from mixedlub.diagnosis.settings.search import MANY
 from mixedlub.recording.conditions import SERIES, coordinates
 from mixedlub.recording.correlated_error import UNCORRELATED, CorrelatedError
@@ -97,6 +98,9 @@ def search_under_noise(case: Case, forward: Forward, exclude: Sequence[str], pro
         case = result.problem.case
     if few is not None:
         result = trial(case)
+    result, times = search_setup_error(result, 1.0 / inflation.factor if stated else 0.0, trial)
+    inflation = replace(inflation, factor=inflation.factor * times) if stated else inflation
+    case = result.problem.case
     n_per_effective = variance_inflation(result) if count >= SERIES else 1.0
     if n_per_effective > 1.0:
         result = trial(case, n_per_effective)

@@ -8,9 +8,10 @@ from functools import cached_property
 
 import numpy as np
 
-from mixedlub.diagnosis.explanation import Explanation
+from mixedlub.diagnosis.explanation import NOTHING, Explanation
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.settings.search import (
+    EXPECTED_CHANCE,
     FULL_PAIR_PRIOR,
     FURTHER_LAW_ODDS,
     LAW_ODDS,
@@ -59,12 +60,28 @@ class PriorOdds:
         """Odds of each effect relative to others; 1 of a law of the user."""
         known = {e.id: e for e in effects_of(self.ids)}
         odds = {name: known[name].prior_odds if name in known else 1.0 for name in self.ids}
-        return {name: own for name, own in odds.items() if name not in known or not known[name].replaces}
+        others = {name for name, one in known.items() if one.replaces or one.expected}
+        return {name: own for name, own in odds.items() if name not in others}
 
     @cached_property
     def laws(self) -> tuple[str, ...]:
         """Laws that replace a step of the base model."""
-        return tuple(name for name in self.ids if name not in self._odds)
+        return tuple(name for name in self.ids if name not in self._odds and name not in self.expected)
+
+    @cached_property
+    def expected(self) -> tuple[str, ...]:
+        """Effects that act by mechanics, so that they need no explanation."""
+        return tuple(e.id for e in effects_of(self.ids) if e.expected)
+
+    def log_expected(self, explanation: Explanation) -> float:
+        """Log prior probability of the expected effects that an explanation has and lacks.
+
+        >>> odds = PriorOdds.of(["inertia"])
+        >>> [round(float(np.exp(odds.log_expected(Explanation.of(*e)))), 2) for e in ((), ("inertia",))]
+        [0.1, 0.9]
+        """
+        has = sum(name in explanation.effects for name in self.expected)
+        return float(has * np.log(EXPECTED_CHANCE) + (len(self.expected) - has) * np.log1p(-EXPECTED_CHANCE))
 
     @cached_property
     def _sizes(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -82,8 +99,9 @@ class PriorOdds:
             return float(np.log(PRIOR["discrepancy"]))
         effects = self.effects_among(explanation)
         weight, total = (sizes[len(effects)] for sizes in self._sizes)
-        odds = sum(np.log(self._odds[n]) for n in effects) + log_odds_of_laws(len(explanation.effects) - len(effects))
-        return float(np.log(weight / total) + odds)
+        laws = sum(name in self.laws for name in explanation.effects)
+        odds = sum(np.log(self._odds[n]) for n in effects) + log_odds_of_laws(laws)
+        return float(np.log(weight / total) + odds) + self.log_expected(explanation)
 
     def effects_among(self, explanation: Explanation) -> list[str]:
         """Effects of an explanation, without other laws of the base model."""
@@ -102,10 +120,12 @@ class PriorOdds:
     @property
     def of_nothing(self) -> float:
         """Prior weight of nothing missing."""
-        return self._sizes[0][0]
+        return self._sizes[0][0] * float(np.exp(self.log_expected(NOTHING)))
 
     def chance(self, name: str) -> float:
         """Prior probability of a single effect alone, or of a law."""
         if name in self.laws:
             return LAW_ODDS * (1.0 + FURTHER_LAW_ODDS) ** (len(self.laws) - 1) / self._of_laws
+        if name in self.expected:
+            return EXPECTED_CHANCE
         return float(np.exp(self.log(Explanation.of(name)))) / (sum(self._sizes[0]) + PRIOR["discrepancy"])

@@ -48,8 +48,9 @@ def with_additions(
     other explanation is much more probable.
     """
     prior = PriorOdds.of(s.id for s in draws)
-    laws = tuple(s for s in draws if s.id in prior.laws)
-    others = tuple(s for s in draws if s.id not in prior.laws)
+    given = (*prior.laws, *prior.expected)
+    laws = tuple(s for s in draws if s.id in given)
+    others = tuple(s for s in draws if s.id not in given)
 
     def weight(fit: Fit) -> float:
         return fit.evidence + prior.log(fit.explanation)
@@ -87,13 +88,19 @@ def discrepancy_beside_laws(
     The evidence sums both; base and form are taken from the more probable. Added to laws of the oil alone, as in a
     viscometer, a free function is an error of their form and not a discrepancy.
     """
-    laws = set(PriorOdds.of(names).laws)
+    prior = PriorOdds.of(names)
+    laws = set(prior.laws)
     laws = laws if any(e.stage == "law" for e in effects_of(laws)) else set()
-    weights = {m: f.evidence + log_odds_of_laws(len(m.effects)) for m, f in fits.items() if laws.issuperset(m.effects)}
+    given = laws | set(prior.expected)
+
+    def odds_of(base: Explanation) -> float:
+        return log_odds_of_laws(len(laws.intersection(base.effects))) + prior.log_expected(base)
+
+    weights = {m: f.evidence + odds_of(m) for m, f in fits.items() if given.issuperset(m.effects)}
     bases = dict.fromkeys([NOTHING, max(weights, key=weights.__getitem__)])
     found = []
     for base in bases:
         one = fit_discrepancy(problem, fits[base], space, values, names)
-        found.append(replace(one, evidence=one.evidence + log_odds_of_laws(len(base.effects))))
+        found.append(replace(one, evidence=one.evidence + odds_of(base)))
     together = float(np.logaddexp.reduce([one.evidence for one in found]))
     return replace(max(found, key=lambda one: one.evidence), evidence=together)

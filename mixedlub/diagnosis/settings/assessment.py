@@ -146,6 +146,10 @@ the lowest: scatter about a set point does not."""
 # Doubts about the answer
 MANY_OUTLIERS = 0.1
 """Judgement. Share of outliers from which the answer is doubted: ten times the prior share."""
+FAILED_SHARE = 1.0 / 3.0
+"""Judgement. Share of outliers above which an explanation fails: no instrument is wrong so often, but a law may be."""
+FAILED_PENALTY = 1e3
+"""Definition. Penalty in log odds of an explanation that fails: beyond any evidence."""
 OPPOSITE_WITHIN = 0.3
 """Judgement. Sum of reading and prediction over the reading, below which an outlier has the opposite sign: roughly."""
 LEAST_STREAK, RARE = 3, 0.05
@@ -165,3 +169,13 @@ VISIBLE = 3.0
 """Judgement. Change in standard deviations from which an effect is visible: clearly beyond noise."""
 CHANNEL_READINGS = 5
 """Judgement. Least readings for a correlation with a second channel: fewer correlate by chance."""
+
+# Steps of conditions
+CLEAR_JUMP = 5.0
+"""Judgement. Jump of a residual at a step, in noise, that is clear."""
+RELAXED = 0.5
+"""Judgement. Part of a jump that is gone before the next step, from which it relaxes."""
+MOST_OF_STEPS = 0.5
+"""Judgement. Share of the steps with a clear jump, from which the steps are where the mismatch begins."""
+STEPS_LISTED = 4
+"""Judgement. Steps that a message lists at most."""

@@ -16,6 +16,8 @@ LAW_ODDS = 0.02
 """Judgement. Prior odds that a step of the base model follows another published law, on a given rig."""
 FURTHER_LAW_ODDS = 0.1
 """Judgement. Odds of each further such step after the first: deviating laws occur together, on one rig or on none."""
+EXPECTED_CHANCE = 0.9
+"""Judgement. Prior probability of an effect that mechanics demands: a reading may have been corrected for it."""
 AFFECTED = 0.1
 """Judgement. Share of the largest change by an explanation from which a reading is affected: less is hardly seen."""
 
@@ -75,6 +77,12 @@ LEAST_FREEDOM = 10
 """Judgement. Degrees of freedom from which the scatter of residuals is known well enough: within 22 %."""
 OVERSTATED_VARIANCE = 0.25
 """Judgement. Variance of residuals over the stated one below which noise is overstated: half the stated noise."""
+
+# Errors of set-ups
+SETUP_SHARES = (0.003, 0.01, 0.03, 0.1, 0.3)
+"""Grid. Errors that readings of one set-up share, over the typical reading: more is physics or another specimen."""
+SETUP_WHITE_SHARES, FINER_SHARES = (1.0, 0.35, 0.12), (0.5, 0.6, 0.7, 0.85, 1.0, 1.2, 1.4, 1.7, 2.0)
+"""Grid. Shares of the noise that are left for single readings beside an error of set-ups, and factors on the best."""
 
 # Correlated noise
 LEAST_BATCHES = 16

@@ -10,7 +10,9 @@ import numpy as np
 from mixedlub.case.forward import Forward
 from mixedlub.case.simulation import conditions_of
 from mixedlub.case.validity import judge_rows
+from mixedlub.chain.effect import Parameter
 from mixedlub.chain.priors import Prior
+from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.diagnosis.assessment.campaign import Standing
 from mixedlub.diagnosis.assessment.experiment_design import NextTest
 from mixedlub.diagnosis.assessment.prediction import Refined
@@ -20,9 +22,11 @@ from mixedlub.diagnosis.labels import in_units_of_case
 from mixedlub.diagnosis.report.text.location_text import located
 from mixedlub.diagnosis.report.text.next_test_text import needed_readings
 from mixedlub.diagnosis.settings.inference import INTERVAL_ENDS, NINETY
+from mixedlub.diagnosis.settings.report import RPM
 from mixedlub.recording.readings import rows_of
 from mixedlub.schema.findings import as_records
 from mixedlub.schema.table import Table
+from mixedlub.schema.units import unit_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -96,7 +100,8 @@ def effect_records(d: Diagnosis) -> list[dict[str, Any]]:
         parameters = []
         for p in e.parameters:
             value, low, high = _value_and_interval(refined, p.prior, index, spread[index])
-            parameters.append({"name": p.name, "unit": p.unit, "value": value, "low90": low, "high90": high})
+            fitted = {"name": p.name, "unit": p.unit, "value": value, "low90": low, "high90": high}
+            parameters.append({**fitted, **_absolute(d, p, (value, low, high))})
             index += 1
         record = {"id": e.id, "parameters": parameters, "source": e.source, "equation": e.equation}
         laws = [{"law": c.law, "log_odds": c.log_odds} for c in d.contained if c.effect == e.id]
@@ -104,19 +109,53 @@ def effect_records(d: Diagnosis) -> list[dict[str, Any]]:
     return records
 
 
+def _absolute(d: Diagnosis, p: Parameter, ends: tuple[float, float, float]) -> dict[str, Any]:
+    """A relative parameter in the unit of its reference."""
+    if not p.relative_to:
+        return {}
+    size, unit = whole(d, p.relative_to)
+    value, low, high = (end * size for end in ends)
+    return {
+        "absolute": {
+            "unit": unit + p.unit.removeprefix("-").removeprefix("1"),
+            "value": value,
+            "low90": low,
+            "high90": high,
+        }
+    }
+
+
 def calibration_record(d: Diagnosis) -> dict[str, dict[str, float]]:
     """Calibrated inputs under the verdict, with 90 % intervals."""
-    if d.posterior.verdict.is_discrepancy:
-        discrepancy = d.search.discrepancy
-        z, spread = discrepancy.z, np.sqrt(np.diag(discrepancy.covariance))
-    else:
-        refined = verdict_fit(d)
-        z, spread = refined.z, refined.spread
+    z, spread = calibrated_at(d)
     record = {}
     for i, c in enumerate(d.search.problem.forward.calibrations):
         value, low, high = interval(c.parameter.prior, z[i], spread[i])
         record[c.name] = {"value": value, "low90": low, "high90": high}
     return record
+
+
+def whole(d: Diagnosis, name: str) -> tuple[float, str]:
+    """Value and unit of the calibrated input to which a parameter is relative."""
+    forward = d.search.problem.forward
+    if name == "reading_scale":
+        return float(forward.inputs[name]) * forward.scale, unit_of(d.case.quantity)
+    if name == "reference_speed":
+        size, turning = float(forward.inputs[name]), "speed_rpm" in forward.table
+        return (size * RPM, "rpm") if turning else (size, "m/s")
+    for c, z in zip(forward.calibrations, calibrated_at(d)[0], strict=False):
+        if name in c.needs:
+            moved = c.apply(forward.inputs, c.parameter.prior.value(float(z)))
+            return float(moved[name]), c.parameter.unit.removeprefix("-")
+    return float(forward.inputs[name]), GLOSSARY[name].unit
+
+
+def calibrated_at(d: Diagnosis) -> tuple[np.ndarray, np.ndarray]:
+    """Standard-normal coordinates of the calibration under the verdict, and their sd."""
+    if d.posterior.verdict.is_discrepancy:
+        return d.search.discrepancy.z, np.sqrt(np.diag(d.search.discrepancy.covariance))
+    refined = verdict_fit(d)
+    return refined.z, refined.spread
 
 
 def interval(prior: Prior, z: float, spread: float) -> tuple[float, float, float]:
@@ -191,11 +230,11 @@ def separating_text(d: Diagnosis, names: tuple[str, ...]) -> str:
 
 
 def predictions(d: Diagnosis) -> pd.DataFrame:
-    """Predictions of the recorded and requested rows, each run once, with conditions."""
+    """Predictions of the recorded and requested rows, each run once, with conditions; faulty readings behind others."""
     import pandas as pd
 
     parts = []
-    for p in (d.recorded, d.wanted):
+    for p in (d.recorded, d.faulty, d.wanted):
         if p is not None:
             numbers = {name: getattr(p, name) for name in PREDICTED}
             columns = pd.DataFrame({"run": p.table["run"], **numbers})

@@ -11,14 +11,12 @@ from mixedlub.case.forward import Forward
 from mixedlub.chain.effect import Effect, Parameter
 from mixedlub.chain.plain_text import plain_equation, with_symbol
 from mixedlub.chain.priors import LogUniform, Prior, Uniform
-from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import effect_words, enumerated, in_reach, number, with_names
-from mixedlub.diagnosis.report.text.answer import effect_records, interval, verdict_fit
-from mixedlub.diagnosis.settings.report import FAR, RPM, SAME_READING, STRAINED, SURE, UNMOVED, VAGUE
+from mixedlub.diagnosis.report.text.answer import calibrated_at, effect_records, interval, verdict_fit, whole
+from mixedlub.diagnosis.settings.report import FAR, SAME_READING, STRAINED, SURE, UNMOVED, VAGUE
 from mixedlub.schema.findings import collected
 from mixedlub.schema.table import Table
-from mixedlub.schema.units import unit_of
 
 UNDETERMINED = "about as uncertain as before the readings"
 COLUMNS = ("effect", "parameter", "value", "90 % interval", "unit", "meaning")
@@ -112,24 +110,9 @@ def _meaning(d: Diagnosis, p: Parameter, value: float) -> str:
     """Meaning of a parameter; for a relative parameter also its reference and its absolute value, with unit."""
     if not p.relative_to:
         return p.meaning
-    size, unit = _whole(d, p.relative_to)
+    size, unit = whole(d, p.relative_to)
     absolute = f"{number(value * size)} {unit}{p.unit.removeprefix('-').removeprefix('1')}"
     return f"{p.meaning} ({f'{number(size)} {unit}'.rstrip()}): {absolute.rstrip()}"
-
-
-def _whole(d: Diagnosis, name: str) -> tuple[float, str]:
-    """Value and unit of the calibrated input to which a parameter is relative."""
-    forward = d.search.problem.forward
-    if name == "reading_scale":
-        return float(forward.inputs[name]) * forward.scale, unit_of(d.case.quantity)
-    if name == "reference_speed":
-        size, turning = float(forward.inputs[name]), "speed_rpm" in forward.table
-        return (size * RPM, "rpm") if turning else (size, "m/s")
-    for c, z in zip(forward.calibrations, _calibrated(d)[0], strict=False):
-        if name in c.needs:
-            moved = c.apply(forward.inputs, c.parameter.prior.value(float(z)))
-            return float(moved[name]), c.parameter.unit.removeprefix("-")
-    return float(forward.inputs[name]), GLOSSARY[name].unit
 
 
 def _cancelling(e: Effect, fitted: list[tuple[Parameter, dict[str, float]]], probability: float) -> list[str]:
@@ -172,7 +155,7 @@ def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
     """Sentences and table of the calibrated inputs under the verdict."""
     if not d.search.problem.forward.calibrations:
         return ("The case lets calibration move nothing.",), ()
-    z, spread = _calibrated(d)
+    z, spread = calibrated_at(d)
     sources = _sources(d.case)
     table = [("input", "stated", "moved to", "90 % interval", "moved by", "meaning")]
     strained = []
@@ -232,11 +215,3 @@ def one_way(forward: Forward) -> list[str]:
         f"The drive turned one way only, which does not distinguish {' from '.join(names)}: only their combined effect "
         "is known."
     ]
-
-
-def _calibrated(d: Diagnosis) -> tuple[np.ndarray, np.ndarray]:
-    """Standard-normal coordinates of the calibration under the verdict, and their sd."""
-    if d.posterior.verdict.is_discrepancy:
-        return d.search.discrepancy.z, np.sqrt(np.diag(d.search.discrepancy.covariance))
-    refined = verdict_fit(d)
-    return refined.z, refined.spread
