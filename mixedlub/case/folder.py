@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from mixedlub.case.import_file import read_import_file
+from mixedlub.full_base.words import WORDS
 from mixedlub.gear import ROUNDED
 from mixedlub.kinds import Kind, kind
 from mixedlub.rig.rig import Rig
@@ -75,6 +76,11 @@ class Case:
     def quantity(self) -> str:
         """Name of the recorded column, with its unit."""
         return self.system.recording.quantity
+
+    @property
+    def base_model(self) -> str:
+        """The base model as text."""
+        return self.kind.base_model if self.system.base == "formulas" else WORDS
 
     @property
     def is_filed(self) -> bool:
@@ -181,9 +187,12 @@ def _checked(
         _report_missing_check(system.recording.check, recordings)
         conditions = table("conditions", _columns(found, system, False))
         conditions = None if conditions is None else _with_filled_sds(conditions, f"{quantity}_sd")
-    return Case(
-        name, folder, system, found, Rig(system, folder, found.unread_of_oil), recordings, conditions, tuple(notes)
-    )
+    rig = Rig(system, folder, found.unread_of_oil)
+    if system.base != "formulas":
+        from mixedlub.case.full_base import refuse
+
+        refuse(found, system, rig, (recordings, conditions))
+    return Case(name, folder, system, found, rig, recordings, conditions, tuple(notes))
 
 
 def read_conditions(case: Case, path: Path) -> Table:

@@ -41,7 +41,12 @@ def command(
     from mixedlub.diagnosis.report import files
 
     to = how.open(case_folder(case).resolve().name, files.case_origin(case), (), "case", *files.WRITTEN)
-    with busy("reading") as progress, input_errors_from(str(case)):
+    from mixedlub.full_base.progress import building
+
+    def solved(done: int, of: int) -> None:
+        progress(f"full solutions: {done} of {of} blocks")
+
+    with busy("reading") as progress, input_errors_from(str(case)), building(solved):
         found = diagnose_case(case, predict, tuple(exclude or ()), level, progress)
         extra = files.described(found)
         contents = files.texts(found, extra)

@@ -24,6 +24,7 @@ ROOMS = {
             "gear",
             "rig",
             "ehl",
+            "full_base",
             "kinds",
         ),
         *("solutions", "case", "recording", "evaluate", "data_checks", "study", "efficiency", "report", "diagnosis"),
