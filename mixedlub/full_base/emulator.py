@@ -28,6 +28,8 @@ LEAST_SOLUTIONS = 120
 """Judgement. Solutions for 55 terms of the mean, with twice as many for the rest."""
 FILM_GOAL, FRICTION_GOAL = 0.008, 0.02
 """Judgement. Errors of film and friction that 95 % of the left-out solutions should keep."""
+OF_OIL = ("viscosity", "pressure_viscosity", "temperature_viscosity", "entering_stress")
+"""Properties of the oil that change with temperature or by calibration."""
 INPUTS = (
     "radius",
     "line_load",
@@ -81,21 +83,26 @@ class Errors:
 
 @dataclass(frozen=True, eq=False)
 class Emulator:
-    """Emulator over a range of contacts; ``low`` and ``high``: ends of the features of its solutions."""
+    """Emulator over a range of contacts.
+
+    ``low``, ``high``: ends of the features of its solutions; ``of_oil``: least and largest value of each property of
+    the oil there.
+    """
 
     box: Box
     low: np.ndarray
     high: np.ndarray
+    of_oil: np.ndarray
     film: Process
     stress: Process
     errors: Errors
 
     def ratios(self, process: Process, state: Mapping[str, Any]) -> np.ndarray:
-        """Ratio of solution and law at contacts; features beyond the range are held at its ends.
+        """Ratio of solution and law at contacts; contacts beyond the range are moved to its ends.
 
         Rows of equal contacts, as of several pairs of surfaces, are evaluated once.
         """
-        found = features(**{name: state[name] for name in INPUTS})
+        found = features(**self._inside(state))
         shape = found.shape[:-1]
         if len(shape) == 2 and shape[0] > 1:
             rows = np.ascontiguousarray(found.reshape(shape[0], -1))
@@ -103,9 +110,29 @@ class Emulator:
             return self._at(process, found[first])[back.ravel()]
         return self._at(process, found)
 
+    def _inside(self, state: Mapping[str, Any]) -> dict[str, Any]:
+        """Contacts moved into the range, with the load of their pressure."""
+        given = {name: state[name] for name in INPUTS}
+        radius, pressure, speed = (
+            np.clip(given[name], *self.box[name]) for name in ("radius", "hertz_pressure", "entrainment_speed")
+        )
+        ratio = load.slide_roll_ratio(given["sliding_speed"], given["entrainment_speed"])
+        modulus = given["reduced_modulus"]
+        oil_ = {name: np.clip(given[name], *ends) for name, ends in zip(OF_OIL, self.of_oil, strict=True)}
+        return {
+            **given,
+            **oil_,
+            "radius": radius,
+            "hertz_pressure": pressure,
+            "entrainment_speed": speed,
+            "line_load": 2.0 * np.pi * radius * pressure**2 / modulus,
+            "hertz_half_width": 4.0 * radius * pressure / modulus,
+            "sliding_speed": np.clip(ratio, *self.box["slide_roll_ratio"]) * speed,
+        }
+
     def _at(self, process: Process, found: np.ndarray) -> np.ndarray:
         flat = found.reshape(-1, found.shape[-1])
-        scaled = 2.0 * (np.clip(flat, self.low, self.high) - self.low) / (self.high - self.low) - 1.0
+        scaled = 2.0 * (flat - self.low) / (self.high - self.low) - 1.0
         return np.exp(process(scaled)).reshape(found.shape[:-1])
 
     @property
@@ -121,7 +148,7 @@ class Emulator:
     def save(self, path: Path) -> None:
         """Write to a file."""
         arrays: dict[str, Any] = {f"box_{name}": np.array(ends) for name, ends in self.box.items()}
-        arrays |= {"low": self.low, "high": self.high}
+        arrays |= {"low": self.low, "high": self.high, "of_oil": self.of_oil}
         arrays |= {f"error_{one.name}": np.array(getattr(self.errors, one.name)) for one in fields(Errors)}
         for name, process in (("film", self.film), ("stress", self.stress)):
             arrays |= {f"{name}_{one.name}": getattr(process, one.name) for one in fields(Process)}
@@ -138,7 +165,7 @@ def read(path: Path) -> Emulator:
     film_, stress = (
         Process(**{one.name: known[f"{name}_{one.name}"] for one in fields(Process)}) for name in ("film", "stress")
     )
-    return Emulator(box, known["low"], known["high"], film_, stress, errors)
+    return Emulator(box, known["low"], known["high"], known["of_oil"], film_, stress, errors)
 
 
 def features(
@@ -188,7 +215,7 @@ def features(
     return np.stack(np.broadcast_arrays(*logs), axis=-1)
 
 
-STEEL = (46.0, 7800.0, 470.0)
+STEEL: tuple[Any, ...] = (46.0, 7800.0, 470.0)
 """Definition. Thermal properties of steel (SI)."""
 
 
@@ -260,7 +287,8 @@ def trained(matter: Matter, box: Box, contacts: Varied, found: Rows) -> Emulator
         float(np.median(found["central_film_error"][good])),
         float(np.median(found["friction_coefficient_error"][good])),
     )
-    return Emulator(box, low, high, whole_["film"], whole_["stress"], errors)
+    ends = np.array([(np.min(state[name]), np.max(state[name])) for name in OF_OIL])
+    return Emulator(box, low, high, ends, whole_["film"], whole_["stress"], errors)
 
 
 def _taken(state: Mapping[str, Any], rows: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:

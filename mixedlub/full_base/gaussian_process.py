@@ -1,4 +1,4 @@
-"""Gaussian process with a quadratic mean, fitted to the values of a smooth function at scattered points."""
+"""Gaussian process with a quadratic trend, fitted to the values of a smooth function at scattered points."""
 
 from __future__ import annotations
 
@@ -6,26 +6,32 @@ from dataclasses import dataclass
 
 import numpy as np
 
-SCALES, NUGGETS = (0.1, 50.0), (1e-9, 0.1)
+SCALES, NUGGETS = (0.1, 50.0), (1e-8, 0.1)
 """Cost limit. Length scales on the unit cube, and variances of scatter over that of the process, that are tried."""
 STEPS = 60
 """Cost limit. Iterations of the search for length scales."""
+DISTINCT = 1e-3
+"""Judgement. Singular value of the terms of the trend over the largest one below which terms count as one."""
+EXACT = 1e-20
+"""Rounding error. Share of the values' square below which they are constant."""
+MARGIN = 0.25
+"""Judgement. Share of the span of the values by which predictions may leave it."""
 AT_ONCE = 4096
 """Points evaluated together: their matrix of distances fits the cache."""
 
 
 @dataclass(frozen=True, eq=False)
 class Process:
-    """Fitted process: points, length scales, coefficients of the quadratic mean, and weights of the points.
+    """Fitted process: points, length scales, weights of the points, trend, and bounds of predictions.
 
-    ``spread``: standard deviation of the process; ``inverse``: inverse of the covariance of the points, over its
-    square; ``left_out``: error at each point of the process without this point.
+    ``trend``: coefficients of the quadratic terms; ``left_out``: error at each point of a process without this point.
     """
 
     points: np.ndarray
     scales: np.ndarray
-    mean: np.ndarray
     weights: np.ndarray
+    trend: np.ndarray
+    bounds: np.ndarray
     left_out: np.ndarray
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
@@ -39,9 +45,9 @@ class Process:
         values = np.empty(len(points))
         for start in range(0, len(points), AT_ONCE):
             part = slice(start, start + AT_ONCE)
-            values[part] = quadratic(points[part]) @ self.mean
+            values[part] = quadratic(points[part]) @ self.trend
             values[part] += covariance(points[part], self.points, self.scales) @ self.weights
-        return values
+        return np.clip(values, *self.bounds)
 
 
 def quadratic(points: np.ndarray) -> np.ndarray:
@@ -68,25 +74,33 @@ def covariance(points: np.ndarray, others: np.ndarray, scales: np.ndarray) -> np
 def fit(points: np.ndarray, values: np.ndarray) -> Process:
     """Process with the length scales and scatter of largest restricted likelihood.
 
-    Source: C. E. Rasmussen, C. K. I. Williams, Gaussian Processes for Machine Learning (2006), sections 2.7 and 5.4.2.
+    Combinations of terms that hardly differ at the points, as of features that depend on each other, have no part in
+    the trend. Source: C. E. Rasmussen, C. K. I. Williams, Gaussian Processes for Machine Learning (2006), sections 2.7
+    and 5.4.
     """
     from scipy.optimize import minimize
 
-    count, size = points.shape
+    size = points.shape[1]
+    every = quadratic(points)
+    _, large, across = np.linalg.svd(every, full_matrices=False)
+    basis = across[large > DISTINCT * large[0]].T
+    terms = every @ basis
     start = np.log(np.append(np.ones(size), 1e-4))
     bounds = [tuple(np.log(SCALES))] * size + [tuple(np.log(NUGGETS))]
     search = minimize(
-        _loss, start, (points, values), jac=True, method="L-BFGS-B", bounds=bounds, options={"maxiter": STEPS}
+        _loss, start, (points, terms, values), jac=True, method="L-BFGS-B", bounds=bounds, options={"maxiter": STEPS}
     )
-    scales, nugget = np.exp(search.x[:-1]), np.exp(search.x[-1])
-    matrix = covariance(points, points, scales) + nugget * np.eye(count)
-    inverse, mean, _ = _solved(matrix, quadratic(points), values)
+    scales, nugget = np.exp(search.x[:-1]), float(np.exp(search.x[-1]))
+    inverse, mean, _ = solved(covariance(points, points, scales) + nugget * np.eye(len(points)), terms, values)
     weights = inverse @ values
-    return Process(points, scales, mean, weights, weights / np.diag(inverse))
+    margin = MARGIN * np.ptp(values)
+    ends = np.array([np.min(values) - margin, np.max(values) + margin])
+    return Process(points, scales, weights, basis @ mean, ends, weights / np.diag(inverse))
 
 
-def _solved(matrix: np.ndarray, terms: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
-    """Inverse of the covariance with the mean projected out, coefficients of the mean, and the loss."""
+def solved(matrix: np.ndarray, terms: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
+    """Inverse of a covariance with the trend projected out, coefficients of the trend, and half the logarithms of the
+    determinants."""
     from scipy.linalg import cho_factor, cho_solve
 
     factor = cho_factor(matrix, lower=True)
@@ -94,25 +108,22 @@ def _solved(matrix: np.ndarray, terms: np.ndarray, values: np.ndarray) -> tuple[
     of_terms = whole @ terms
     normal = terms.T @ of_terms
     inverse = whole - of_terms @ np.linalg.solve(normal, of_terms.T)
-    mean = np.linalg.solve(normal, of_terms.T @ values)
-    free = len(values) - terms.shape[1]
-    power = max(float(values @ inverse @ values), np.finfo(float).tiny)
-    loss = 0.5 * free * np.log(power) + np.sum(np.log(np.diag(factor[0]))) + 0.5 * np.linalg.slogdet(normal)[1]
-    return inverse, mean, float(loss)
+    half = np.sum(np.log(np.diag(factor[0]))) + 0.5 * np.linalg.slogdet(normal)[1]
+    return inverse, np.linalg.solve(normal, of_terms.T @ values), float(half)
 
 
-def _loss(log: np.ndarray, points: np.ndarray, values: np.ndarray) -> tuple[float, np.ndarray]:
-    """Negative logarithm of the restricted likelihood, its variance maximised out, with the gradient."""
-    scales, nugget = np.exp(log[:-1]), np.exp(log[-1])
+def _loss(log: np.ndarray, points: np.ndarray, terms: np.ndarray, values: np.ndarray) -> tuple[float, np.ndarray]:
+    """Negative logarithm of the restricted likelihood at its most probable variance, with the gradient."""
+    scales, nugget = np.exp(log[:-1]), float(np.exp(log[-1]))
     own = covariance(points, points, scales)
-    inverse, _, loss = _solved(own + nugget * np.eye(len(own)), quadratic(points), values)
+    inverse, _, half = solved(own + nugget * np.eye(len(own)), terms, values)
     weights = inverse @ values
-    power = max(float(values @ weights), np.finfo(float).tiny)
-    terms = len(quadratic(points[:1])[0])
-    pull = inverse - (len(values) - terms) / power * np.outer(weights, weights)
+    power = max(float(values @ weights), EXACT * float(values @ values))
+    free = len(values) - terms.shape[1]
+    pull = inverse - free / power * np.outer(weights, weights)
     by_own = pull * own
     slopes = [
         0.5 * np.sum(by_own * (points[:, [axis]] - points[:, axis]) ** 2) / scales[axis] ** 2
         for axis in range(points.shape[1])
     ]
-    return loss, np.array([*slopes, 0.5 * nugget * np.trace(pull)])
+    return 0.5 * free * np.log(power) + half, np.array([*slopes, 0.5 * nugget * np.trace(pull)])

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
 
-from mixedlub import ehl, laws
+from mixedlub import ehl
 from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.oil.lubricant import from_lubricant
 from mixedlub.ehl.oil.oil import Oil
@@ -57,11 +57,15 @@ class Matter:
 
 @cache
 def solver_fingerprint() -> str:
-    """Hash of the code on which an emulator depends: solver, formulas, oil, and the emulator itself."""
+    """Hash of the code on which a solution depends: solver, oil, and choice of the contacts."""
+    solver = sorted(Path(str(ehl.__file__)).parent.rglob("*.py"))
+    return hash_of((*solver, Path(str(lubricant.__file__)), Path(__file__), Path(__file__).with_name("box.py")))
+
+
+def hash_of(paths: Iterable[Path]) -> str:
+    """Hash of the content of files and of the version of NumPy."""
     digest = hashlib.sha256(np.__version__.encode())
-    own = [Path(__file__).with_name(name) for name in ("solutions.py", "emulator.py", "gaussian_process.py")]
-    folders = (Path(package.__file__).parent for package in (ehl, laws))
-    for path in (*own, Path(lubricant.__file__), *(p for folder in folders for p in sorted(folder.rglob("*.py")))):
+    for path in paths:
         digest.update(path.read_bytes())
     return digest.hexdigest()
 
