@@ -14,6 +14,7 @@ import numpy as np
 from mixedlub.case.import_file import read_import_file
 from mixedlub.case.reach import Reach, reach_of
 from mixedlub.chain.effect import Effect
+from mixedlub.full_base.words import WORDS
 from mixedlub.gear import ROUNDED
 from mixedlub.kinds import Kind, kind
 from mixedlub.own_laws import as_hypothesis, by_id, distinct, read_laws
@@ -86,6 +87,11 @@ class Case:
     def quantity(self) -> str:
         """Name of the recorded column, with its unit."""
         return self.system.recording.quantity
+
+    @property
+    def base_model(self) -> str:
+        """The base model as text."""
+        return self.kind.base_model if self.system.base == "formulas" else WORDS
 
     @property
     def is_filed(self) -> bool:
@@ -234,12 +240,17 @@ def _checked(
         if conditions is not None and recordings is not None:
             check_rows(found, system, folder, conditions, recordings)
     effects, laws = by_id(system.effects, folder, _numbers(found))
+    rig = Rig(system, folder, found.unread_of_oil)
+    if system.base != "formulas":
+        from mixedlub.case.full_base import refuse
+
+        refuse(found, system, rig, (recordings, conditions))
     case = Case(
         name,
         folder,
         system.model_copy(update={"effects": effects}) if laws else system,
         found,
-        Rig(system, folder, found.unread_of_oil),
+        rig,
         recordings,
         conditions,
         tuple(notes),

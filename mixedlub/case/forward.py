@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub.case.base import Base
 from mixedlub.case.folder import Case
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Chain, Model, Parameters, Record, available
@@ -68,9 +69,12 @@ class Forward:
                 self.inputs["ageing"] = ageing(recorded, self.inputs["sequence"])
             extra = case.kind.extra_calibration(case.system, recorded)
         self.inputs |= columns_read(case.laws.values(), table.columns)
+            formulas = case.kind.chain(case.system, table)
+            self.base = self._based(formulas)
         self.notes = tuple(notes)
         self.scale = case.kind.scale
-        self.chain = case.kind.chain(case.system, table)
+        self.chain = self.base.chain
+        self.inputs |= self.base.inputs
         self._model = lru_cache(maxsize=1024)(self._build)
         self._shape = (len(table), 1)
         plain = Model(self.chain, tuple(self.inputs), ("reading", *case.kind.base_inputs))(self.inputs)
@@ -82,17 +86,32 @@ class Forward:
         for law in laws.values():
             check_usable(law, self.chain, self.inputs, "reading", case.kind.name.replace("_", " "))
         self.known = known_effects(
-            case.system.effects, case.kind.effect_kind, self.chain, tuple(self.inputs), "reading", case.laws
+            case.system.effects, case.kind.effect_kind, formulas, tuple(self.inputs), "reading", case.laws
         )
         self.uncertain_laws = tuple(
             e for e in self.catalogue.values() if any(p.base_sd for p in e.parameters) and self._offers(e)
         )
         self.calibrations: tuple[Calibration, ...] = (
-            *(c for c in (*calibrations(case.system), *extra) if all(n in self.inputs for n in c.needs)),
+            *(
+                self.base.moved(c)
+                for c in (*calibrations(case.system), *extra)
+                if all(n in self.inputs for n in c.needs)
+            ),
+            *self.base.calibrations,
             *map(self._of_effect, self.known.sds),
             *(of_base_law(e, p) for e in self.uncertain_laws for p in e.parameters if p.base_sd),
         )
         self._check_calibration()
+
+    def _based(self, formulas: Chain) -> Base:
+        """The base that the case names; full solutions cover its recordings and conditions."""
+        case = self.case
+        if case.system.base == "formulas":
+            return Base(formulas)
+        from mixedlub.case.full_base import full_base
+
+        tables = [t for t in (case.recordings, case.conditions) if t is not None] or [self.table]
+        return full_base(case.kind, case.system, case.rig, tables, formulas, self.inputs)
 
     def _of_effect(self, place: tuple[str, str]) -> Calibration:
         """Calibration of a parameter with a standard deviation stated in the case."""
@@ -195,6 +214,7 @@ class Forward:
         """Whether an effect applies to these rows beside those that the case names."""
         return (
             e.id not in self.known.values
+            and e.id not in self.base.contained
             and available(e, self.chain, tuple(self.inputs), "reading", self.case.kind.effect_kind)
             and (not e.needs_variation_in or varies(self.inputs[e.needs_variation_in]))
             and self._within(e)

@@ -69,6 +69,7 @@ viscosity               | eta_0      | Pa s    | dynamic viscosity at oil temper
 pressure_viscosity      | alpha      | 1/Pa    | pressure-viscosity coefficient at oil temperature
 entering_viscosity      | eta_in     | Pa s    | dynamic viscosity of the oil as it enters
 entering_coefficient    | alpha_in   | 1/Pa    | pressure-viscosity coefficient of the oil as it enters
+entering_stress         | tau_in  | Pa      | Eyring stress of the oil as it enters
 bulk_rise               | D_theta    | K       | rise of the teeth above the entering oil
 coefficient_fall        | a_theta    | 1/K     | relative fall of the pressure-viscosity coefficient per kelvin
 temperature_viscosity   | beta       | 1/K     | relative fall of viscosity per kelvin
@@ -113,6 +114,10 @@ speed_exponent_change   | delta_u    | -       | what the film's exponent of spe
 load_exponent_change    | delta_F    | -       | what the film's exponent of load has over that of the law
 middle_flow             | (eta_0 u)_m | N/m    | geometric mean of viscosity times speed in the recording
 middle_load             | F_m        | N       | geometric mean of the load in the recording
+film_ratio              | r_h     | -       | film of the full solution over the film of the film law
+film_ratio_factor       | f_h     | -       | factor on that ratio for the error of the emulator
+stress_ratio            | r_tau   | -       | shear stress of the full solution over the stress of the shear law
+stress_ratio_factor     | f_tau   | -       | factor on that ratio for the error of the emulator
 film_thickness          | h          | m       | central film thickness
 separation              | t          | -       | gap to the summits' mean plane over summit sigma
 area_ratio              | P_B        | -       | real over nominal contact area, the share of boundary friction

@@ -48,7 +48,10 @@ def holds_within(ranges: Mapping[str, Ends]) -> Callable[[Law], Law]:
 
 
 def declared(law: Callable[..., Any]) -> Mapping[str, Ends]:
-    """Declared range of a law, also of a wrapped law; empty if unknown."""
+    """Declared range of a law, also of a wrapped law, or of a law that is an object; empty if unknown."""
+    own: Mapping[str, Ends] | None = getattr(law, "valid", None)
+    if own is not None:
+        return own
     return _DECLARED.get(law) or _DECLARED.get(getattr(law, "__wrapped__", law), {})
 
 

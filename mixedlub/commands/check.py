@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 import typer
 
-from mixedlub.commands.console import case_folder, echo, input_errors_from, print_findings
+from mixedlub.commands.console import case_folder, echo, input_errors_from, print_findings, progress_bar, resumed
 from mixedlub.schema.findings import Finding, Severity, collected, gravest_first, grouped, of_severity
 from mixedlub.schema.units import unit_of
 from profiles.errors import InputError
@@ -30,9 +30,10 @@ def command(case: Annotated[Path, typer.Argument(metavar="CASE", help="Case fold
     Data present, data missing, and defaults used.
     """
     from mixedlub.case.folder import read_case
+    from mixedlub.full_base.progress import building
     from mixedlub.schema.units import stated_units
 
-    with input_errors_from(str(case)):
+    with input_errors_from(str(case)), progress_bar("full solutions") as bar, building(resumed(bar)):
         found = read_case(case_folder(case), need_recordings=False)
         with stated_units(found.kind.units):
             lines = list(understood(found))
@@ -49,7 +50,7 @@ def understood(case: Case) -> Iterator[str]:
     yield f"{case.name}: a case of kind {case.system.kind}, recording {case.quantity}."
     if case.system.description:
         yield f"  Described as: {case.system.description}"
-    yield f"Base model: {case.kind.base_model}"
+    yield f"Base model: {case.base_model}"
     with collected() as reported:
         bodies = list(_bodies(case))
         forward = _forward(case)

@@ -53,12 +53,16 @@ def command(
     """
     from mixedlub.diagnosis.diagnose import diagnose_case
     from mixedlub.diagnosis.report import files
+    from mixedlub.full_base.progress import building
+
+    def solved(done: int, of: int) -> None:
+        progress(f"full solutions: {done} of {of} blocks")
 
     origin = replace(files.case_origin(case_folder(case)), within=add)
     to = how.open(case.resolve().name, origin, (), "case", *files.WRITTEN)
     if add is None:
         _refuse_campaign(to)
-    with busy("reading") as progress, input_errors_from(str(case)):
+    with busy("reading") as progress, input_errors_from(str(case)), building(solved):
         names = tuple(exclude or ())
         if add is None:
             found = diagnose_case(case, predict, names, level, progress)

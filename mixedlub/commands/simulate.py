@@ -7,7 +7,14 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.console import CONDITIONS, case_folder, input_errors_from, print_findings
+from mixedlub.commands.console import (
+    CONDITIONS,
+    case_folder,
+    input_errors_from,
+    print_findings,
+    progress_bar,
+    resumed,
+)
 from mixedlub.commands.deliver import How, deliver, delivers
 from mixedlub.running.origin import origin_of
 from mixedlub.schema.result import Result, described
@@ -41,10 +48,12 @@ def command(
     """
     from mixedlub.case.folder import read_case, read_conditions, unpredicted_runs
     from mixedlub.case.simulation import simulate
+    from mixedlub.full_base.progress import building
     from mixedlub.rig.plausibility import implausible
     from mixedlub.schema.findings import collected, gravest_first
 
-    with collected() as notes, input_errors_from(str(case)):
+    bar = progress_bar("full solutions")
+    with collected() as notes, input_errors_from(str(case)), bar as progress, building(resumed(progress)):
         found = read_case(case_folder(case), need_recordings=False)
         notes += [*found.notes, *implausible(found.rig)]
         notes += unpredicted_runs(found, found.conditions) if at is None else []

@@ -41,6 +41,7 @@ def command(
 
     An interrupted run resumes when it is started again with the same inputs.
     """
+    from mixedlub.full_base.progress import building
     from mixedlub.study import checkpoint, counted, factors, read_study, run_study
     from mixedlub.study.columns import every_column
     from mixedlub.study.curves import curve_columns, curve_table, refuse_too_many
@@ -50,7 +51,7 @@ def command(
 
     if paper_figures and not how.figures:
         raise InputError("draws figures, which --no-figures leaves out; leave one of them out", where="--paper-figures")
-    with input_errors_from(str(file)):
+    with input_errors_from(str(file)), progress_bar("full solutions") as bar, building(resumed(bar), scheduler):
         study = read_study(file)
         given = file.read_bytes()
     if curves:

@@ -97,7 +97,7 @@ def _kept(folder: Path | None, parts: Sequence[np.ndarray]) -> Iterator[tuple[in
 def parts_folder(out: Path, oil: Oil, contacts: Contacts, *, thermal: bool) -> Path:
     """Folder next to a result for the parts of these contacts, oil and code."""
     digest = hashlib.sha256(f"{code_fingerprint()}{thermal}".encode())
-    for values in (*_of_oil(oil), *_of_batch(contacts)):
+    for values in (*of_oil(oil), *_of_batch(contacts)):
         digest.update(np.ascontiguousarray(values, dtype=float).tobytes())
     return out / f"{PARTS}{digest.hexdigest()[:16]}"
 
@@ -108,7 +108,7 @@ def _of_batch(batch: Batch) -> Iterator[np.ndarray]:
         yield from _of_batch(own) if isinstance(own, Batch) else (own,)
 
 
-def _of_oil(oil: Oil) -> Iterator[np.ndarray]:
+def of_oil(oil: Oil) -> Iterator[np.ndarray]:
     """Numbers that identify an oil: values of its laws, and its constants."""
     pressure, temperature = np.meshgrid(np.array(PRESSURES), np.array(TEMPERATURES))
     with np.errstate(all="ignore"):

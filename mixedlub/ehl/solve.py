@@ -159,7 +159,7 @@ def solved(
     """Solutions of checked contacts; ``keep``, ``scheduler`` and ``progress`` as in `run_parts`."""
     import xarray
 
-    solver = partial(_rows, oil, thermal=thermal)
+    solver = partial(solution_rows, oil, thermal=thermal)
     columns: dict[str, Any] = run_parts(solver, contacts, keep=keep, scheduler=scheduler, progress=progress)
     every = {**QUANTITIES, **CHECKS, **PROFILES}
     data = xarray.Dataset()
@@ -185,7 +185,7 @@ class Way:
         return solved(oil, found, thermal=thermal, keep=keep, scheduler=self.scheduler, progress=self.progress)
 
 
-def _rows(oil: Oil, contacts: Contacts, *, thermal: bool) -> dict[str, np.ndarray]:
+def solution_rows(oil: Oil, contacts: Contacts, *, thermal: bool) -> dict[str, np.ndarray]:
     """Results of a batch."""
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         found = solve_levels(oil, contacts, thermal=thermal)

@@ -128,6 +128,13 @@ class Gears(Section):
         return with_preset(given) if isinstance(named, str) else given
 
 
+BASES = {
+    "formulas": "published formulas, isothermal",
+    "full_solution": "full thermal, non-Newtonian solutions for the oil, by an emulator that is built once",
+}
+"""Bases of film and film friction."""
+
+
 class Contact(Section):
     geometry: Literal["line", "point"] = key(
         "form of contact", "line", values={"line": "cylinders", "point": "a ball or crowned discs"}
@@ -327,6 +334,11 @@ class System(RigFile):
 
     schema_: Literal["mixedlub-case/1"] = key("format of the file", example="mixedlub-case/1", alias="schema")
     kind: Annotated[str, AfterValidator(_known_kind)] = key("what was recorded", example="gear_pair")
+    base: Literal["formulas", "full_solution"] = key(
+        "film and film friction of the base model; a gear pair or discs in line contact may have full solutions",
+        "formulas",
+        values=BASES,
+    )
     contact: Contact | None = key("two entries: first and second body", None)
     uncertainty: SerializeAsAny[Uncertainty] = key(
         "one standard deviation of what calibration may move; 0: known", Uncertainty()

@@ -42,6 +42,9 @@ def input_fingerprint(plan: Plan) -> str:
             digest.update(value.tobytes())
     for table in () if plan.heights is None else (plan.heights.area, plan.heights.load):
         digest.update(table.tobytes())
+    if plan.full is not None:
+        for process in (plan.full.film, plan.full.stress):
+            digest.update(np.ascontiguousarray(process.weights).tobytes())
     chosen = [plan.options.model_dump(), {k: dict(v) for k, v in plan.parameters.items()}, plan.shape]
     chosen += [] if plan.safety is None else [plan.safety.model_dump()]
     chosen += [text_of(law) for law in plan.laws.values()]

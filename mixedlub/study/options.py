@@ -6,7 +6,7 @@ import inspect
 from collections.abc import Mapping
 from functools import wraps
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mixedlub import friction
 from mixedlub.base_model.balanced import balanced
@@ -19,6 +19,9 @@ from mixedlub.laws.film import dowson_higginson
 from mixedlub.laws.rough_film import film_over_roughness, rough_film
 from mixedlub.laws.yielding import chang_etsion_bogy_pressure
 from mixedlub.study.schema import Options
+
+if TYPE_CHECKING:
+    from mixedlub.full_base.emulator import Emulator
 
 
 def at_mean_pressure(law: Law) -> Law:
@@ -60,8 +63,10 @@ def at_hardness(strength: float, hardness: float) -> Law:
     return law
 
 
-def study_chain(options: Options, asperities: Mapping[str, Law] = MappingProxyType({})) -> Chain:
-    """Gear chain with the chosen laws, and with laws of ``asperities`` for non-normal heights.
+def study_chain(
+    options: Options, asperities: Mapping[str, Law] = MappingProxyType({}), full: Emulator | None = None
+) -> Chain:
+    """Gear chain with the chosen laws, with laws of ``asperities`` for non-normal heights, and with full solutions.
 
     >>> dict(study_chain(Options(effective_viscosity="secant")))["shear_stress"].__name__
     'ree_eyring_secant'
@@ -76,6 +81,10 @@ def study_chain(options: Options, asperities: Mapping[str, Law] = MappingProxyTy
         own = friction.find(options.friction).with_coefficients(options.friction_coefficients)
         chain = with_friction(chain, own)
     chain = chain if options.balance == "none" else balanced(chain)
+    if full is not None:
+        from mixedlub.full_base.chain import with_full_base
+
+        chain = with_full_base(chain, full)
     return chain if options.film_roughness == "none" else with_rough_film(chain)
 
 

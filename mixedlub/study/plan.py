@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from inspect import signature
 from os import PathLike
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from mixedlub.chain.ranges import Limit, of_law
 from mixedlub.chain.slots import ASPERITY_LOAD
 from mixedlub.effects import find
 from mixedlub.friction import FrictionLaw
+from mixedlub.full_base.words import FULL_INPUTS
 from mixedlub.gear import GearPair, Mesh
 from mixedlub.gear.inputs import motion_inputs
 from mixedlub.laws.load import LEAST_SHARE
@@ -48,6 +49,9 @@ from mixedlub.study.options import FURTHER, RATED, at_hardness, study_chain
 from mixedlub.study.origins import by_origin, losing
 from mixedlub.study.schema import Options, Pairings, Safety, StudyFile
 from profiles.errors import InputError, as_path, nearest, refuse_other
+
+if TYPE_CHECKING:
+    from mixedlub.full_base.emulator import Emulator
 
 WANTED = (
     "power_loss",
@@ -100,6 +104,7 @@ class Plan:
     heights: HeightTables | None = None
     safety: Safety | None = None
     laws: Mapping[str, Effect] = field(default_factory=dict)
+    full: Emulator | None = None
 
     @property
     def effects(self) -> tuple[Effect, ...]:
@@ -139,8 +144,8 @@ class Plan:
         return {} if self.heights is None else self.heights.laws()
 
     def chain(self, options: Options) -> Chain:
-        """Chain of options with the heights of this study."""
-        return study_chain(options, self._of_heights)
+        """Chain of options with the heights of this study, and with full solutions if they are the base."""
+        return study_chain(options, self._of_heights, self.full)
 
     @property
     def friction(self) -> FrictionLaw | None:
@@ -311,13 +316,16 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     heights = height_tables(options.heights, rig, surfaces, chosen)
     if heights is not None:
         inputs["height_row"] = heights.rows.reshape(-1, 1, 1, 1, 1)
+    full = None if options.base == "formulas" else _full_base(file, rig, oil, inputs)
+    if full is not None:
+        inputs |= {**FULL_INPUTS, "entering_stress": inputs["eyring_stress"]}
     if any(HEAT in e.reads for e in find(sorted(file.effects), "effects", laws)):
-        bare = Model(study_chain(options, {} if heights is None else heights.laws()), tuple(inputs), (LOSS,))
+        bare = Model(study_chain(options, {} if heights is None else heights.laws(), full), tuple(inputs), (LOSS,))
         inputs |= heat_inputs(bare, inputs, shape, points.position.size)
     active, parameters = chosen_effects(file, inputs, laws)
     moved = groups(options.bands, rig, surfaces, chosen, surface_inputs)
     inputs |= rating_inputs(inputs, parameters)
-    plan = Plan(inputs, options, parameters, shape, points.position.size, moved, heights, file.safety, laws)
+    plan = Plan(inputs, options, parameters, shape, points.position.size, moved, heights, file.safety, laws, full)
     check_friction(file, plan.model())
     if plan.reads_mean_roughness:
         for found in mean_assumed(surfaces.values()):
@@ -325,6 +333,21 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     if plan.balanced and options.mixture == "tallian":
         report(finding("balance_by_area", BY_AREA, "options.mixture"))
     return Study(name, file, rig, pair, points, oil, surfaces, chosen, active, plan)
+
+
+def _full_base(file: StudyFile, rig: Rig, oil: Lubricant, inputs: Mapping[str, Any]) -> Emulator:
+    """Emulator of full solutions for the contacts of a study."""
+    from mixedlub.full_base.box import CONDITIONS, needed
+    from mixedlub.full_base.chain import matter_of, noted, refuse_contained, refuse_oil
+    from mixedlub.full_base.store import emulator
+
+    refuse_contained(file.effects)
+    refuse_oil(file.lubricant, rig.oil, np.unique(inputs["oil_temperature"]).tolist())
+    want = [name for name in (*CONDITIONS, "line_load") if name not in inputs]
+    state = Model(study_chain(Options()), tuple(inputs), want)(inputs)
+    found, built = emulator(matter_of(oil, inputs), needed({**inputs, **state}))
+    noted(found, built)
+    return found
 
 
 def _check_film_roughness(file: StudyFile, surfaces: Mapping[str, Surface]) -> None:

@@ -14,7 +14,7 @@ from mixedlub.friction import BASE, PLACES, catalogue
 from mixedlub.schema.friction_file import coefficients_of
 from mixedlub.schema.section import Number, NumberOrName, Section, Whole, check_keys_of, key, table, with_ranges
 from mixedlub.schema.surface_file import SurfaceSection
-from mixedlub.schema.system_file import Gears, RigFile
+from mixedlub.schema.system_file import BASES, Gears, RigFile
 
 MOST_LEVELS = 100_000
 
@@ -110,9 +110,14 @@ def reads_hardness(law: Callable[..., Any]) -> bool:
     return "hardness" in signature(law).parameters
 
 
+BESIDE_FULL = ("film", "viscosity_law", "viscosity_pressure", "effective_viscosity", "contact_pressure", "friction")
+"""Options for laws of film and film friction, which full solutions replace."""
+
+
 class Options(_Laws):
     """Options of the model left open by its authors; the defaults are the base model's."""
 
+    base: Literal["formulas", "full_solution"] = key("film and film friction", "formulas", values=BASES)
     balance: Literal["none", "johnson_greenwood_poon"] = key(
         "whether film and asperities share the load",
         "none",
@@ -184,6 +189,18 @@ class Options(_Laws):
     def laws(self) -> dict[str, Callable[..., Any]]:
         """Chosen laws by output quantity."""
         return {slot.quantity: slot.choices[getattr(self, slot.option)].law for slot in SLOTS}
+
+    @model_validator(mode="after")
+    def _full_base_alone(self) -> Options:
+        """Raise an error for another law of film or friction beside full solutions, which have both."""
+        if self.base == "full_solution":
+            for name in BESIDE_FULL:
+                default = type(self).model_fields[name].default
+                if getattr(self, name) != default:
+                    raise ValueError(
+                        f'{name} = "{getattr(self, name)}": base = "full_solution" has its own; leave it out'
+                    )
+        return self
 
     @model_validator(mode="after")
     def _heights_where_they_act(self) -> Options:

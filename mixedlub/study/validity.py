@@ -10,6 +10,7 @@ import numpy as np
 from mixedlub.base_model.limits import BALANCE, YIELDING, contact_limits, of_bearing_asperities
 from mixedlub.chain.ranges import EXTRAPOLATED, Reached, findings, flags
 from mixedlub.chain.slots import SLOTS
+from mixedlub.full_base.words import FULL
 from mixedlub.laws.oil import kinematic
 from mixedlub.schema.findings import Finding
 from mixedlub.study.batch import BEYOND
@@ -75,6 +76,8 @@ def _place(study: Study, code: str) -> str:
     options = study.file.options
     if name in {e.id for e in study.effects}:
         return f"effects.{name}"
+    if name == FULL:
+        return "options.base"
     if name == "rough_film":
         return "options.film_roughness"
     slots = (s.option for s in SLOTS if s.choices[getattr(options, s.option)].law.__name__ == name)

@@ -26,6 +26,7 @@ ROOMS = {
             "gear",
             "rig",
             "ehl",
+            "full_base",
             "kinds",
         ),
         *("solutions", "case", "recording", "evaluate", "data_checks", "study", "efficiency", "report", "diagnosis"),

@@ -115,7 +115,7 @@ def render(d: Diagnosis, parts: Iterable[Section], drawings: Mapping[str, str]) 
         parts=_with_pictures(parts, pictures),
         cards=_cards(d),
         description=d.case.system.description or "",
-        base_model=d.case.kind.base_model,
+        base_model=d.case.base_model,
         equations={sentence: Markup(svg) for sentence, svg in _equations(d).items()},
         pictures=pictures,
         version=installed_version(),
