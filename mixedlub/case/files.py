@@ -6,6 +6,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from mixedlub.case.folder import Case
+from mixedlub.case.missing_part import FILE as MISSING_PART
 from mixedlub.schema.surface_file import SURFACE_FILES
 from mixedlub.schema.table import Table
 from mixedlub.schema.toml_file import named_file, to_toml
@@ -41,6 +42,9 @@ def case_files(case: Case) -> dict[str, str | bytes]:
             ]
             surface[key] = files[0] if isinstance(given, str) else files
     tables = {f"{name}.csv": _csv(getattr(case, name)) for name in TABLES if getattr(case, name) is not None}
+    if case.missing is not None:
+        system["missing_part"] = MISSING_PART
+        tables[MISSING_PART] = _csv(case.missing.table)
     return {"system.toml": to_toml(system), **tables, **carried}
 
 
@@ -61,5 +65,6 @@ def _carry(carried: dict[str, bytes], folder: Path, name: str, key: str) -> str:
 def _csv(table: Table) -> str:
     import pandas as pd
 
-    columns: dict[str, Any] = {"run": table["run"], **table.columns}
+    first = {"run": table["run"]} if "run" in table else {}
+    columns: dict[str, Any] = {**first, **table.columns}
     return str(pd.DataFrame(columns).to_csv(index=False, lineterminator="\n"))

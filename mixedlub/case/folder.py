@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from mixedlub.case.import_file import read_import_file
+from mixedlub.case.missing_part import MissingPart, columns_of
 from mixedlub.gear import ROUNDED
 from mixedlub.kinds import Kind, kind
 from mixedlub.rig.rig import Rig
@@ -63,6 +64,7 @@ class Case:
     recordings: Table | None
     conditions: Table | None
     notes: tuple[Finding, ...]
+    missing: MissingPart | None = None
 
     def __repr__(self) -> str:
         tables = {"recordings": self.recordings, "conditions": self.conditions}
@@ -181,9 +183,17 @@ def _checked(
         _report_missing_check(system.recording.check, recordings)
         conditions = table("conditions", _columns(found, system, False))
         conditions = None if conditions is None else _with_filled_sds(conditions, f"{quantity}_sd")
-    return Case(
-        name, folder, system, found, Rig(system, folder, found.unread_of_oil), recordings, conditions, tuple(notes)
-    )
+        missing = _missing_part(folder, system, found)
+    rig = Rig(system, folder, found.unread_of_oil)
+    return Case(name, folder, system, found, rig, recordings, conditions, tuple(notes), missing)
+
+
+def _missing_part(folder: Path, system: system_file.System, found: Kind) -> MissingPart | None:
+    """The table that the system names for the part that the model lacks."""
+    if system.missing_part is None:
+        return None
+    path = toml_file.named_file(folder, system.missing_part, "missing_part")
+    return MissingPart(read_table(path, columns_of(found), key=()), found.part_rigs).checked(str(path))
 
 
 def read_conditions(case: Case, path: Path) -> Table:

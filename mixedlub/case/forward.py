@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from operator import is_
 from typing import Any
@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from mixedlub.case.folder import Case
+from mixedlub.case.missing_part import MissingPart, as_effect
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Chain, Model, Parameters, Record, available
 from mixedlub.chain.ranges import beyond
@@ -74,6 +75,8 @@ class Forward:
         self.inputs["reading_scale"] = reading_scale
         self.inputs |= {name: plain[quantity] for quantity, name in case.kind.base_inputs.items()}
         self.known = known_effects(case.system.effects, case.kind.name, self.chain, tuple(self.inputs), "reading")
+        if case.missing is not None:
+            self._add(case.missing)
         self.uncertain_laws = tuple(
             e for e in known_in(case.kind.name).values() if any(p.base_sd for p in e.parameters) and self._offers(e)
         )
@@ -83,6 +86,13 @@ class Forward:
             *(of_base_law(e, p) for e in self.uncertain_laws for p in e.parameters if p.base_sd),
         )
         self._check_calibration()
+
+    def _add(self, missing: MissingPart) -> None:
+        """Make a table of the missing part an effect of the base model."""
+        effect = as_effect(missing.is_share)
+        unit = 1.0 if missing.is_share else self.scale
+        self.inputs[effect.reads[0]] = missing.at(self.table)[:, None] / unit
+        self.known = replace(self.known, effects=(*self.known.effects, effect))
 
     def _of_effect(self, place: tuple[str, str]) -> Calibration:
         """Calibration of a parameter with a standard deviation stated in the case."""

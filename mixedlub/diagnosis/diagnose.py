@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property, partial
 from numbers import Real
 from pathlib import Path
 
@@ -32,13 +33,20 @@ from mixedlub.diagnosis.assessment.experiment_design import NextTest, next_tests
 from mixedlub.diagnosis.assessment.extrapolation import beyond_recorded
 from mixedlub.diagnosis.assessment.location import Region, region, time_columns
 from mixedlub.diagnosis.assessment.mismatch_test import Mismatch, mismatch_against_null
-from mixedlub.diagnosis.assessment.model_averaging import Predicted, averaged, leaders, outlier_chances
+from mixedlub.diagnosis.assessment.model_averaging import (
+    Predicted,
+    averaged,
+    by_calibration,
+    leaders,
+    outlier_chances,
+)
 from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.assessment.prediction import Refined
 from mixedlub.diagnosis.assessment.published_laws import Contained, contained
+from mixedlub.diagnosis.assessment.tabulated import Tabulated, tabulated
 from mixedlub.diagnosis.assessment.validity import beyond_range, unpublished
 from mixedlub.diagnosis.assessment.verdict import judge
-from mixedlub.diagnosis.explanation import DISCREPANCY, Explanation
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.labels import effect_words
 from mixedlub.diagnosis.search.noise_selection import search_under_noise
 from mixedlub.diagnosis.search.search import Progress, Search
@@ -49,6 +57,9 @@ from mixedlub.recording.readings import readings_of, rows_of
 from mixedlub.schema.findings import Finding, collected, finding
 from mixedlub.schema.table import Table
 from profiles.errors import InputError
+
+CALIBRATION, EFFECTS, TABLE = "calibration", "effects", "table"
+"""Models that an answer hands on."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,6 +118,28 @@ class Diagnosis:
         problem, p = self.search.problem, self.recorded
         base = problem.inverse(problem.transform(p.predicted) - p.mismatch_z * self.transformed_sd)
         return self.readings - base, p.predicted - base
+
+    @property
+    def handed_on(self) -> str:
+        """The model in `improved` and in the predictions: the answer, unless calibration alone predicts left-out levels
+        better. A discrepancy is handed on as a table."""
+        verdict = self.posterior.verdict
+        if verdict == NOTHING or self.heldout.after > self.heldout.before:
+            return CALIBRATION
+        return TABLE if verdict.is_discrepancy else EFFECTS
+
+    def handed(self, p: Predicted) -> Predicted:
+        """Predictions by the model that is handed on."""
+        if self.handed_on == CALIBRATION and self.posterior.verdict != NOTHING:
+            return by_calibration(self.search, p, self.heldout.before)
+        return p
+
+    @cached_property
+    def tabulated(self) -> Tabulated:
+        """The missing part as a table over the recorded conditions."""
+        predict = partial(averaged, self.search, self.posterior, self.refined)
+        with threadpool_limits(limits=1, user_api="blas"):
+            return tabulated(self.search, self.recorded, predict)
 
     @property
     def outlier_runs(self) -> list[int]:

@@ -297,6 +297,12 @@ class System(RigFile):
         {},
         example={"boundary_friction": 0.1},
     )
+    missing_part: str | None = key(
+        "table of what the model lacks over conditions, added to its readings within the range of the table",
+        None,
+        example="missing_part.csv",
+        alternative=True,
+    )
 
 
 with_ranges(System)

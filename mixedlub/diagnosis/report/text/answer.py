@@ -12,7 +12,7 @@ from mixedlub.case.simulation import conditions_of
 from mixedlub.case.validity import judge_rows
 from mixedlub.chain.priors import Prior
 from mixedlub.diagnosis.assessment.prediction import Refined
-from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.diagnose import CALIBRATION, TABLE, Diagnosis
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.report.text.location_text import located
@@ -58,6 +58,7 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
             "split": d.heldout.split,
             "folds": d.heldout.folds,
         },
+        "improved": improved_record(d),
         "outlier_runs": d.outlier_runs,
         "next_tests": [
             {
@@ -72,6 +73,15 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
         "findings": as_records(d.warnings),
         **({} if d.check is None else {"check": asdict(d.check)}),
     }
+
+
+def improved_record(d: Diagnosis) -> dict[str, Any]:
+    """The model in the folder improved, its error on left-out levels, and the errors of its table."""
+    error = d.heldout.before if d.handed_on == CALIBRATION else d.heldout.after
+    record: dict[str, Any] = {"model": d.handed_on, "heldout": error}
+    if d.handed_on == TABLE:
+        record |= {"table_rms_error": d.tabulated.rms_error, "table_largest_error": d.tabulated.largest_error}
+    return record
 
 
 def verdict_fit(d: Diagnosis) -> Refined:
@@ -148,7 +158,8 @@ def predictions(d: Diagnosis) -> pd.DataFrame:
     parts = []
     for p in (d.recorded, d.wanted):
         if p is not None:
-            numbers = {name: getattr(p, name) for name in PREDICTED}
+            handed = d.handed(p)
+            numbers = {name: getattr(handed, name) for name in PREDICTED}
             columns = pd.DataFrame({"run": p.table["run"], **numbers})
             words = pd.Series(_validity(d, p.table), name="validity")
             parts.append(pd.concat([columns, conditions_of(d.case, p.table), words], axis=1))

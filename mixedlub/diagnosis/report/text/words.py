@@ -6,11 +6,13 @@ import textwrap
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from mixedlub.case.missing_part import FILE
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.plain_text import plain_equation
 from mixedlub.diagnosis.assessment.identifiability import confusion
 from mixedlub.diagnosis.assessment.power_law import Absorbed, DescribedDiscrepancy
-from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.diagnose import CALIBRATION as BASE_ALONE
+from mixedlub.diagnosis.diagnose import TABLE, Diagnosis
 from mixedlub.diagnosis.discrepancy.modulated import ADDITIVE, READING
 from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.labels import (
@@ -256,12 +258,22 @@ def _stage(absorbed: Absorbed) -> str:
 
 
 def _improved(d: Diagnosis) -> tuple[str, ...]:
-    """Instruction to run the verdict's model at other conditions."""
-    if d.posterior.verdict.is_discrepancy:
-        return ("None can be run at other conditions: the missing part has no law.",)
+    """Instruction to run the improved model at other conditions."""
+    run = "mixedlub simulate runs it, at other conditions with --at."
+    if d.handed_on == TABLE:
+        error = d.tabulated.rms_error
+        return (
+            "The folder improved is the calibrated base model with a table of the missing part, which has no law: "
+            f"{FILE}, with its standard deviation. {run} It is interpolated between its rows, at the recorded "
+            f"conditions to {error:.2g} sigma (rms) of the predictions. It holds inside the recorded range only. Rows outside say "
+            "so in their column validity; they keep the value at the end of the range, as a jump there would be an "
+            "invention, and rows with surfaces that were not recorded have the calibrated base model.",
+        )
+    if d.handed_on == BASE_ALONE:
+        return (f"The folder improved is the calibrated base model alone. {run}",)
     return (
         "The folder improved is a case with the most probable parameters and calibration of this answer alone: no "
-        "average over explanations, no error of form. mixedlub simulate runs it, at other conditions with --at.",
+        f"average over explanations, no error of form. {run}",
     )
 
 
