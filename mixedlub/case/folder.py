@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -11,8 +11,10 @@ import numpy as np
 
 from mixedlub.case.import_file import read_import_file
 from mixedlub.case.missing_part import MissingPart, columns_of
+from mixedlub.chain.effect import Effect
 from mixedlub.gear import ROUNDED
 from mixedlub.kinds import Kind, kind
+from mixedlub.own_laws import as_hypothesis, by_id, distinct, read_laws
 from mixedlub.rig.rig import Rig
 from mixedlub.running.shell import quoted
 from mixedlub.schema import system_file, toml_file
@@ -29,7 +31,7 @@ from mixedlub.schema.table import (
     span,
     table_of,
 )
-from profiles.errors import InputError, nearest
+from profiles.errors import InputError, as_path, nearest
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -39,13 +41,16 @@ if TYPE_CHECKING:
 
 SUMMARY_WIDTH = 80
 """Characters of the summary of a table."""
+HYPOTHESES = "hypotheses"
+"""Folder of a case with laws that compete with the catalogue."""
 RUNS_LISTED = 5
 """Largest number of runs that a note lists."""
 
 
 @dataclass(frozen=True)
 class Case:
-    """Everything in a case folder, checked. It prints as a summary:
+    """Everything in a case folder, checked. ``laws``: laws of the user by id, of which the ``hypotheses`` compete with
+    the catalogue and the others are named in ``[effects]``. It prints as a summary:
 
     >>> import mixedlub as ml
     >>> drive = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm"}}
@@ -64,6 +69,8 @@ class Case:
     recordings: Table | None
     conditions: Table | None
     notes: tuple[Finding, ...]
+    laws: Mapping[str, Effect] = field(default_factory=dict)
+    hypotheses: tuple[str, ...] = ()
     missing: MissingPart | None = None
 
     def __repr__(self) -> str:
@@ -110,7 +117,8 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
             return None
         raise InputError(f"no such file{other_recordings(folder)}", where=str(path))
 
-    found = _checked(folder.resolve().name, folder, system, str(file), table)
+    hypotheses = sorted((folder / HYPOTHESES).glob("*.toml"))
+    found = _checked(folder.resolve().name, folder, system, str(file), table, hypotheses)
     return replace(found, notes=(*read_import_file(folder), *found.notes))
 
 
@@ -132,10 +140,12 @@ def case_of(
     *,
     name: str = "case",
     folder: str | Path = ".",
+    hypotheses: Sequence[str | Path] = (),
 ) -> Case:
     """A case from the sections of its system and from data frames (or lists by column), checked like a case folder.
 
-    Files that the system names, such as traces, are read relative to ``folder``.
+    Files that the system names, such as traces, are read relative to ``folder``. ``hypotheses``: law files that compete
+    with the catalogue in a diagnosis.
 
     >>> import mixedlub as ml, pandas as pd
     >>> drive = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm"}}
@@ -153,7 +163,7 @@ def case_of(
         return table_of(frames[which], columns, which) if which in frames else None
 
     parsed = toml_file.parse(system_file.System, {"schema": "mixedlub-case/1", **system}, name)
-    return _checked(name, Path(folder), parsed, name, table)
+    return _checked(name, Path(folder), parsed, name, table, [as_path(one, "hypotheses") for one in hypotheses])
 
 
 def _checked(
@@ -162,6 +172,7 @@ def _checked(
     system: system_file.System,
     where: str,
     table: Callable[[str, tuple[Column, ...]], Table | None],
+    hypotheses: Sequence[Path],
 ) -> Case:
     """The checked case of a parsed system; ``table`` returns its recordings or conditions for the allowed columns."""
     found = kind(system.kind)
@@ -184,8 +195,22 @@ def _checked(
         conditions = table("conditions", _columns(found, system, False))
         conditions = None if conditions is None else _with_filled_sds(conditions, f"{quantity}_sd")
         missing = _missing_part(folder, system, found)
-    rig = Rig(system, folder, found.unread_of_oil)
-    return Case(name, folder, system, found, rig, recordings, conditions, tuple(notes), missing)
+    columns = [c.name for c in (*BOOKKEEPING, *found.columns) if c.dtype == "number"]
+    effects, laws = by_id(system.effects, folder, columns)
+    rivals = {name: as_hypothesis(law) for name, law in read_laws(hypotheses, columns).items()}
+    return Case(
+        name,
+        folder,
+        system.model_copy(update={"effects": effects}) if laws else system,
+        found,
+        Rig(system, folder, found.unread_of_oil),
+        recordings,
+        conditions,
+        tuple(notes),
+        distinct([*laws.values(), *rivals.values()]),
+        tuple(rivals),
+        missing,
+    )
 
 
 def _missing_part(folder: Path, system: system_file.System, found: Kind) -> MissingPart | None:

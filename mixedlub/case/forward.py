@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from operator import is_
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from mixedlub.chain.ranges import beyond
 from mixedlub.effects import known_effects, known_in
 from mixedlub.kinds.calibration import Calibration, calibrations, of_base_law, of_parameter
 from mixedlub.kinds.kind import ageing, varies
+from mixedlub.own_laws import check_usable, columns_read
 from mixedlub.schema.findings import collected
 from mixedlub.schema.table import Table
 from profiles.errors import InputError, nearest
@@ -49,13 +51,15 @@ class Run:
 class Forward:
     """Predicts the rows of a table under any set of effects.
 
-    Inputs are built once; ``notes`` lists the assumptions made. Effects that the case names are part of the base model,
-    and the calibration that it names applies wherever no other value is given.
+    Inputs are built once; ``notes`` lists the assumptions made; ``catalogue``: effects, and laws of the user by id.
+    Effects that the case names are part of the base model, and the calibration that it names applies wherever no other
+    value is given.
     """
 
     def __init__(self, case: Case, table: Table, reading_scale: float | None = None) -> None:
         self.case = case
         recorded = table if case.recordings is None else case.recordings
+        laws = case.laws if reading_scale is None else {}
         if reading_scale is None and case.system.effects and table is not recorded:
             reading_scale = float(Forward(case, recorded).inputs["reading_scale"])
         with collected() as notes:
@@ -64,6 +68,7 @@ class Forward:
             if "sequence" in self.inputs:
                 self.inputs["ageing"] = ageing(recorded, self.inputs["sequence"])
             extra = case.kind.extra_calibration(case.system, recorded)
+        self.inputs |= columns_read(case.laws.values(), table.columns)
         self.notes = tuple(notes)
         self.scale = case.kind.scale
         self.chain = case.kind.chain(case.system, table)
@@ -74,11 +79,16 @@ class Forward:
             reading_scale = float(np.median(np.abs(self._rows(plain["reading"])))) / self.scale
         self.inputs["reading_scale"] = reading_scale
         self.inputs |= {name: plain[quantity] for quantity, name in case.kind.base_inputs.items()}
-        self.known = known_effects(case.system.effects, case.kind.name, self.chain, tuple(self.inputs), "reading")
+        self.catalogue = MappingProxyType({**known_in(case.kind.name), **case.laws})
+        for law in laws.values():
+            check_usable(law, self.chain, self.inputs, "reading", case.kind.name.replace("_", " "))
+        self.known = known_effects(
+            case.system.effects, case.kind.name, self.chain, tuple(self.inputs), "reading", case.laws
+        )
         if case.missing is not None:
             self._add(case.missing)
         self.uncertain_laws = tuple(
-            e for e in known_in(case.kind.name).values() if any(p.base_sd for p in e.parameters) and self._offers(e)
+            e for e in self.catalogue.values() if any(p.base_sd for p in e.parameters) and self._offers(e)
         )
         self.calibrations: tuple[Calibration, ...] = (
             *(c for c in (*calibrations(case.system), *extra) if all(n in self.inputs for n in c.needs)),
@@ -109,7 +119,7 @@ class Forward:
                 raise InputError(f"is not calibrated in this case; {hint}", where="calibration", value=name)
 
     def _build(self, effects: tuple[str, ...]) -> Model:
-        return self.model(("reading",), [known_in(self.case.kind.name)[e] for e in effects])
+        return self.model(("reading",), [self.catalogue[e] for e in effects])
 
     def model(self, want: Sequence[str], effects: Sequence[Effect] = (), further: Chain = ()) -> Model:
         """Base model of the case with more effects, and ``further`` laws after its laws."""
@@ -189,8 +199,7 @@ class Forward:
 
     def effects(self, exclude: Sequence[str] = ()) -> tuple[Effect, ...]:
         """Effects of the catalogue that apply to these rows, with the parameters that are free in this kind."""
-        catalogue = known_in(self.case.kind.name).values()
-        return tuple(e for e in catalogue if e.id not in exclude and self._offers(e))
+        return tuple(e for e in self.catalogue.values() if e.id not in exclude and self._offers(e))
 
     def _offers(self, e: Effect) -> bool:
         """Whether an effect applies to these rows beside those that the case names."""

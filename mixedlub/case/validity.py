@@ -13,7 +13,6 @@ from mixedlub.base_model.limits import contact_limits, law_limits, of_bearing_as
 from mixedlub.case.forward import Forward
 from mixedlub.chain.model import Chain, Parameters
 from mixedlub.chain.ranges import Reached, farthest_beyond, findings, flags, validity
-from mixedlub.effects import known_in
 from mixedlub.laws.contact import asperity_load_ratio, asperity_real_pressure
 from mixedlub.laws.film import film_over_contact_width
 from mixedlub.laws.load import carries_load
@@ -57,7 +56,7 @@ def judge_rows(
     """Judge the rows of a model, with effects at these parameters beside the effects that the case names."""
     calibration = {**forward.case.system.calibration, **(calibration or {})}
     values = {**forward.known_values(calibration), **(parameters or {})}
-    added = [known_in(forward.case.kind.name)[name] for name in parameters or {}]
+    added = [forward.catalogue[name] for name in parameters or {}]
     inputs = forward.run(calibration, parameters).inputs
     steps = forward.model(("reading",), added).steps
     made = {*inputs, *(name for name, _ in forward.chain)}

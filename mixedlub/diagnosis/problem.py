@@ -14,7 +14,7 @@ from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Parameters
 from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.settings.inference import FINITE_STEP, MOST_COORDINATE, NOISE_BY_READING_BELOW, SMALLEST_READING
-from mixedlub.effects import catalogue, known_in
+from mixedlub.effects import catalogue
 from mixedlub.recording.correlated_error import UNCORRELATED, CorrelatedError
 from mixedlub.recording.noise import transformed_noise
 from mixedlub.recording.readings import readings_of, rows_of
@@ -106,14 +106,17 @@ class Problem:
     def effects(self, explanation: Explanation) -> list[Effect]:
         """Effects of an explanation, with their free parameters."""
         if explanation not in self._effects:
-            known = known_in(self.case.kind.name)
-            every = (known[name] for name in explanation.effects)
+            every = self.effects_of(explanation.effects)
             self._effects[explanation] = [e.fixing(self.fixed[e.id]) if e.id in self.fixed else e for e in every]
         return self._effects[explanation]
 
     @cached_property
     def _effects(self) -> dict[Explanation, list[Effect]]:
         return {}
+
+    def effects_of(self, ids: Iterable[str]) -> list[Effect]:
+        """Effects of the catalogue and laws of the user by id."""
+        return [self.forward.catalogue[name] for name in ids]
 
     def size(self, explanation: Explanation) -> int:
         """Length of the coordinate vector of an explanation."""
@@ -217,6 +220,6 @@ class Problem:
 
 
 def effects_of(ids: Iterable[str]) -> list[Effect]:
-    """Effects of the catalogue by id, with all their parameters."""
+    """Effects of the catalogue by id, with all their parameters; laws of the user are left out."""
     known = catalogue()
-    return [known[name] for name in ids]
+    return [known[name] for name in ids if name in known]

@@ -29,9 +29,19 @@ def known_in(kind: str) -> Mapping[str, Effect]:
     )
 
 
-def find(ids: str | list[str] | tuple[str, ...], where: str = "effect") -> tuple[Effect, ...]:
-    """Effects by one id or several; an unknown id raises an error that names the nearest and the place ``where``."""
-    return tuple(EFFECTS.find(name, where) for name in ((ids,) if isinstance(ids, str) else ids))
+NO_LAWS: Mapping[str, Effect] = MappingProxyType({})
+"""Laws of a user who has none."""
+
+
+def find(
+    ids: str | list[str] | tuple[str, ...], where: str = "effect", laws: Mapping[str, Effect] = NO_LAWS
+) -> tuple[Effect, ...]:
+    """Effects by one id or several, of the catalogue or of a user's ``laws``.
+
+    An unknown id raises an error that names the nearest and the place ``where``.
+    """
+    names = (ids,) if isinstance(ids, str) else ids
+    return tuple(laws[name] if name in laws else EFFECTS.find(name, where) for name in names)
 
 
 def page(effect_id: str) -> Effect:
@@ -58,16 +68,21 @@ class Known:
 
 
 def known_effects(
-    section: Mapping[str, Mapping[str, float | str]], kind: str, chain: Chain, given: Sequence[str], want: str
+    section: Mapping[str, Mapping[str, float | str]],
+    kind: str,
+    chain: Chain,
+    given: Sequence[str],
+    want: str,
+    laws: Mapping[str, Effect] = NO_LAWS,
 ) -> Known:
     """The effects of a section ``[effects]`` in a chain; omitted parameters have the values of a published law, or of
     the chain and the other effects where they depend on them.
 
     ``law`` names a published law in the effect and fixes its parameters; the default is the first law. NAME_sd is the
-    standard deviation of the parameter NAME.
+    standard deviation of the parameter NAME. ``laws``: laws of the user.
     """
-    own = known_in(kind)
-    effects = tuple(own[e.id] for e in find(sorted(section), "effects"))
+    own = {**known_in(kind), **laws}
+    effects = tuple(own[e.id] for e in find(sorted(section), "effects", laws))
     _refuse_second_law(effects)
     values: dict[str, dict[str, float]] = {}
     sds: dict[tuple[str, str], float] = {}

@@ -131,6 +131,8 @@ def _named(name: str) -> tuple[Fraction, Powers]:
         times, unit = NAMED[name]
         size, powers = measure(unit)
         return Fraction(times) * size, powers
+    if len(name) < 2:
+        raise KeyError(name)
     size, powers = measure(name[1:])
     return Fraction(10) ** PREFIXES[name[0]] * size, powers
 
@@ -282,6 +284,23 @@ FORMS = {
     for wanted, units in UNITS.items()
 }
 """Accepted spellings by the unit of a column, with and without the dot of a product."""
+
+
+def to_si(unit: str) -> tuple[float, float]:
+    """Factor and offset from a written unit to SI; KeyError if unknown.
+
+    >>> to_si("N mm"), to_si("Nm"), to_si("°C"), to_si("W/(m K)")
+    ((0.001, 0.0), (1.0, 0.0), (1.0, 273.15), (1.0, 0.0))
+    """
+    written = tidy(unit)
+    try:
+        return float(measure(written)[0]), float(ZEROS.get(written, 0))
+    except (KeyError, AttributeError):
+        wanted = next((wanted for wanted, forms in FORMS.items() if written in forms), None)
+    if wanted is None:
+        raise KeyError(unit)
+    (factor, added), (size, zero) = FORMS[wanted][written], to_si(ENDINGS[wanted] or "1")
+    return factor * size, added * size + zero
 
 
 def open_units(unit: str, wanted: str) -> tuple[str, ...]:

@@ -15,10 +15,12 @@ ROOMS = {
         *(
             "running",
             "schema",
+            "expressions",
             "chain",
             "laws",
             "base_model",
             "effects",
+            "own_laws",
             "friction",
             "parts",
             "gear",

@@ -177,9 +177,9 @@ def test_evidence_shows_the_probabilities(offset: Diagnosis) -> None:
     assert shown[0] == pytest.approx(offset.posterior.weights[offset.posterior.verdict])
 
 
-def test_instrument_and_physics_have_their_own_colours() -> None:
+def test_instrument_and_physics_have_their_own_colours(offset: Diagnosis) -> None:
     every = (NOTHING, DISCREPANCY, Explanation.of("sensor_offset"), Explanation.of("inlet_shear_heating"))
-    colours = {charts.colour_of(k) for k in every}
+    colours = {charts.colour_of(offset, k) for k in every}
     assert len(colours) == 4
 
 

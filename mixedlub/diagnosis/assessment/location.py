@@ -9,7 +9,6 @@ import numpy as np
 
 from mixedlub.diagnosis.discrepancy.local import TURNED
 from mixedlub.diagnosis.explanation import Explanation
-from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.search.several import CLOCKS
 from mixedlub.diagnosis.settings.assessment import CUT_GAIN, LARGE_SHARE, MOST_CUTS, MOST_ENDS, NO_MISMATCH
@@ -61,7 +60,7 @@ def time_columns(search: Search, verdict: Explanation) -> list[str]:
     """Columns of time or position on which the answer depends, so that its region may be a part of the programme."""
     if verdict.is_discrepancy:
         return [name for name in PASSING if name in search.discrepancy.best.axes]
-    timed = any(CLOCKS.intersection(e.reads) for e in effects_of(verdict.effects))
+    timed = any(CLOCKS.intersection(e.reads) for e in search.problem.effects_of(verdict.effects))
     return [name for name in PASSING if timed and name != TURNED]
 
 

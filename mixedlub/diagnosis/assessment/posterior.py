@@ -10,7 +10,6 @@ import numpy as np
 from mixedlub.chain.effect import STAGES
 from mixedlub.diagnosis.assessment.mismatch_test import Mismatch
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
-from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.search.prior_odds import PriorOdds
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.assessment import FLOOR, TEST_MARGIN, TIE
@@ -35,11 +34,11 @@ class Posterior:
         chance = {**alone, **chance}
         return {name: float(np.clip(value, FLOOR, 1.0 - FLOOR)) for name, value in chance.items()}
 
-    def stages(self) -> dict[str, float]:
+    def stages(self, search: Search) -> dict[str, float]:
         """Probability that each stage of the chain is part of the explanation."""
         chance = dict.fromkeys(STAGES, 0.0)
         for key, weight in self.weights.items():
-            for stage in {e.stage for e in effects_of(key.effects)}:
+            for stage in {e.stage for e in search.problem.effects_of(key.effects)}:
                 chance[stage] += weight
         return {stage: float(np.clip(value, FLOOR, 1.0 - FLOOR)) for stage, value in chance.items()}
 

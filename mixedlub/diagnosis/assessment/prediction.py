@@ -81,7 +81,7 @@ def refine(search: Search, fit: Fit) -> Refined:
         if score > best_score:
             best, best_score, used = linear, score, all_columns
             form_error_size = size if columns.size else 0.0
-        if not n_inexact(fit.explanation):
+        if not n_inexact(search.problem, fit.explanation):
             break
     assert best is not None
     spread = covariance(used, best.weight)

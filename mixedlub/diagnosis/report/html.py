@@ -11,7 +11,6 @@ from importlib.resources import files
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.labels import number, words_of
-from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.report.figures.charts import colour_of
 from mixedlub.diagnosis.report.figures.style import inline
 from mixedlub.diagnosis.report.text.headline import p_words, percent
@@ -108,7 +107,7 @@ def render(d: Diagnosis, parts: Iterable[Section], drawings: Mapping[str, str]) 
     return template.render(
         title=f"{d.case.name}: what the simulation leaves out",
         case=d.case.name,
-        colour=colour_of(d.posterior.verdict),
+        colour=colour_of(d, d.posterior.verdict),
         parts=_with_pictures(parts, pictures),
         cards=_cards(d),
         description=d.case.system.description or "",
@@ -131,7 +130,10 @@ def _with_pictures(parts: Iterable[Section], pictures: Mapping[str, list[Picture
 
 def _equations(d: Diagnosis) -> dict[str, str]:
     """Drawings of the verdict's equations, by the sentence they replace."""
-    return {equation_sentence(e): equation(bare(e.equation)) for e in effects_of(d.posterior.verdict.effects)}
+    return {
+        equation_sentence(e): equation(bare(e.equation))
+        for e in d.search.problem.effects_of(d.posterior.verdict.effects)
+    }
 
 
 def bare(tex: str) -> str:

@@ -13,7 +13,6 @@ from mixedlub.diagnosis.diagnose import EFFECTS, TABLE, Diagnosis
 from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.labels import effect_words
 from mixedlub.diagnosis.report.text.answer import verdict_fit
-from mixedlub.effects import known_in
 
 FOLDER = "improved"
 FILES = ("system.toml", FILE, *(f"{name}.csv" for name in TABLES))
@@ -35,7 +34,7 @@ def improved_case(d: Diagnosis) -> Case:
     verdict, problem, z = d.posterior.verdict, d.search.problem, d.search.null_fit.z
     fitted: dict[str, dict[str, float]] = {}
     if d.handed_on == EFFECTS or verdict == NOTHING:
-        z, own = most_probable(d), known_in(d.case.kind.name)
+        z, own = most_probable(d), problem.forward.catalogue
         fitted = {
             effect: {p.name: values[p.name] for p in own[effect].parameters}
             for effect, values in problem.parameters(verdict, z).items()

@@ -56,8 +56,10 @@ class PriorOdds:
 
     @cached_property
     def _odds(self) -> dict[str, float]:
-        """Odds of each effect relative to others."""
-        return {e.id: e.prior_odds for e in effects_of(self.ids) if not e.replaces}
+        """Odds of each effect relative to others; 1 of a law of the user."""
+        known = {e.id: e for e in effects_of(self.ids)}
+        odds = {name: known[name].prior_odds if name in known else 1.0 for name in self.ids}
+        return {name: own for name, own in odds.items() if name not in known or not known[name].replaces}
 
     @cached_property
     def laws(self) -> tuple[str, ...]:

@@ -16,7 +16,7 @@ from mixedlub.diagnosis.inference.initial_guesses import PriorDraws, fit_singles
 from mixedlub.diagnosis.inference.likelihood import log_likelihood
 from mixedlub.diagnosis.inference.map_fit import Fit, Linear, linear_fit, map_fit
 from mixedlub.diagnosis.inference.nested_laws import published_gain
-from mixedlub.diagnosis.problem import Problem, effects_of
+from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.prior_odds import PriorOdds
 from mixedlub.diagnosis.search.several import discrepancy_beside_laws, fit_from, one_in_time, with_additions
 from mixedlub.diagnosis.settings.inference import (
@@ -255,15 +255,15 @@ def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: 
     return {m: new[m] if m in new else f.in_sigmas(scale, f.evidence + shift) for m, f in singles.items()}
 
 
-def n_inexact(explanation: Explanation) -> int:
+def n_inexact(problem: Problem, explanation: Explanation) -> int:
     """Number of effects subject to an error of form; zero if any effect is descriptive."""
-    effects = effects_of(explanation.effects)
+    effects = problem.effects_of(explanation.effects)
     return 0 if any(e.descriptive for e in effects) else sum(not e.exact_form for e in effects)
 
 
 def form_error_evidence(problem: Problem, stiff: Fit, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:
     """Evidence with a smooth error of form in the change by the effects from a ``stiff`` reference fit."""
-    count = n_inexact(fit.explanation)
+    count = n_inexact(problem, fit.explanation)
     if not count:
         return fit.evidence
     base = np.hstack([fit.slopes, problem.shared])

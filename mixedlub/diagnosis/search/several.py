@@ -28,7 +28,7 @@ def one_in_time(several: Explanation, problem: Problem, null_fit: Fit) -> bool:
     Their sum is then a single function of time, however good the fit. A drifting condition without influence on them or
     on the base model beyond noise separates nothing.
     """
-    effects, inputs = effects_of(several.effects), problem.forward.inputs
+    effects, inputs = problem.effects_of(several.effects), problem.forward.inputs
     inputs_read = {name for e in effects for name in e.reads if name in inputs and np.ptp(inputs[name]) > 0.0}
     still = np.ptp(null_fit.prediction) <= np.median(problem.sd)
     return any(e.stage == "measurement" for e in effects) and bool(still) and inputs_read <= CLOCKS

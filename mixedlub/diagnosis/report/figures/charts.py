@@ -10,7 +10,6 @@ from mixedlub.diagnosis.assessment.power_law import DescribedDiscrepancy
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.labels import axis_label, conditions_text, explanation_words, words_of
-from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.report.figures import maps
 from mixedlub.diagnosis.report.figures.style import AFTER, BEFORE, FAULT, GRID, INK, MUTED, SERIES, UNNAMED, blank
 from mixedlub.diagnosis.report.text.headline import chance
@@ -30,13 +29,13 @@ FOLD = 58
 """Characters in a line of text at a bar."""
 
 
-def colour_of(key: Explanation) -> str:
+def colour_of(d: Diagnosis, key: Explanation) -> str:
     """Colour of an explanation: physics, instrument, nothing missing, or discrepancy."""
     if key.is_discrepancy:
         return UNNAMED
     if key == NOTHING:
         return MUTED
-    return FAULT if all(e.stage == "measurement" for e in effects_of(key.effects)) else AFTER
+    return FAULT if all(e.stage == "measurement" for e in d.search.problem.effects_of(key.effects)) else AFTER
 
 
 def evidence(d: Diagnosis) -> Figure:
@@ -52,7 +51,7 @@ def evidence(d: Diagnosis) -> Figure:
     top = rows[0][1]
     axes.axvspan(TIE * top, 1.0, color=GRID, lw=0, zorder=0)
     for place, (key, weight) in enumerate(rows):
-        colour = colour_of(key)
+        colour = colour_of(d, key)
         axes.plot([FAINT, weight], [place, place], color=colour, lw=2.0, solid_capstyle="butt")
         axes.plot(weight, place, "o", color=colour, ms=5.5)
         text = chance(weight) if weight >= 0.01 else (f"{weight:.0e}" if weight > FAINT else "below 1e-04")
@@ -66,7 +65,7 @@ def evidence(d: Diagnosis) -> Figure:
     axes.grid(axis="y", visible=False)
     axes.tick_params(axis="y", length=0)
     kinds = {AFTER: "physics", FAULT: "instrument", MUTED: "nothing missing", UNNAMED: "unknown"}
-    shown = dict.fromkeys(colour_of(k) for k, _ in rows)
+    shown = dict.fromkeys(colour_of(d, k) for k, _ in rows)
     marks = [Line2D([], [], color=c, marker="o", lw=2, ms=5, label=kinds[c]) for c in shown]
     axes.legend(handles=marks, loc="lower right")
     return figure

@@ -8,7 +8,6 @@ from mixedlub.diagnosis.assessment.identifiability import Confusion
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING
 from mixedlub.diagnosis.labels import effect_words
-from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.report.text.headline import chance
 from mixedlub.diagnosis.report.text.nearest_effect import nearest
 from mixedlub.diagnosis.settings.assessment import VISIBLE
@@ -25,7 +24,7 @@ def alternatives(d: Diagnosis, similarity: Confusion) -> tuple[tuple[str, ...], 
     """Sentences on the alternatives, and the tests that separate the tied effects."""
     sentences = _resemblance(d, similarity)
     names = dict.fromkeys(name for key in d.posterior.tied for name in key.effects)
-    items = tuple(f"{effect_words(e.id)}: {e.separated_by}" for e in effects_of(names))
+    items = tuple(f"{effect_words(e.id)}: {e.separated_by}" for e in d.search.problem.effects_of(names))
     if len(d.posterior.tied) < 2 or not items:
         return sentences, ()
     return (*sentences, "To separate them:"), items
@@ -104,5 +103,5 @@ def _improbable(d: Diagnosis) -> list[str]:
     weighed = {
         name: p for name, p in d.posterior.inclusion(d.search).items() if name not in NOTHING.ids + DISCREPANCY.ids
     }
-    faulty = bool(d.outlier_runs)
-    return [e.id for e in effects_of(weighed) if weighed[e.id] < REJECTED and not (faulty and "reading" in e.acts_on)]
+    faulty, every = bool(d.outlier_runs), d.search.problem.effects_of(weighed)
+    return [e.id for e in every if weighed[e.id] < REJECTED and not (faulty and "reading" in e.acts_on)]

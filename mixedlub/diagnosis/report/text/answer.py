@@ -14,7 +14,6 @@ from mixedlub.chain.priors import Prior
 from mixedlub.diagnosis.assessment.prediction import Refined
 from mixedlub.diagnosis.diagnose import CALIBRATION, TABLE, Diagnosis
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING
-from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.report.text.location_text import located
 from mixedlub.diagnosis.report.text.next_test_text import beyond
 from mixedlub.diagnosis.settings.inference import INTERVAL_ENDS, NINETY
@@ -41,7 +40,7 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
         "verdict": verdict,
         "probabilities": d.posterior.inclusion(d.search),
         "tied": [list(key.ids) for key in d.posterior.tied],
-        "stage": d.posterior.stages(),
+        "stage": d.posterior.stages(d.search),
         "location": {
             "rows": {
                 str(int(run)): float(z) for run, z in zip(d.recorded.table["run"], d.recorded.mismatch_z, strict=True)
@@ -65,7 +64,7 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
                 "conditions": t.conditions,
                 "separates": list(t.separates),
                 "expected_bits": t.expected_bits,
-                "text": "; ".join((*beyond(t.conditions, d.recorded.table), separating_text(t.separates))),
+                "text": "; ".join((*beyond(t.conditions, d.recorded.table), separating_text(d, t.separates))),
             }
             for t in d.next_tests
         ],
@@ -145,10 +144,10 @@ def _value_and_interval(refined: Refined, prior: Prior, index: int, spread: floa
     return interval(prior, refined.z[index], spread)
 
 
-def separating_text(names: tuple[str, ...]) -> str:
+def separating_text(d: Diagnosis, names: tuple[str, ...]) -> str:
     """Tests of the catalogue that separate the named effects."""
     ids = [part for name in names for part in name.split("+") if part not in NOTHING.ids + DISCREPANCY.ids]
-    return "; ".join(dict.fromkeys(f"{e.id}: {e.separated_by}" for e in effects_of(ids)))
+    return "; ".join(dict.fromkeys(f"{e.id}: {e.separated_by}" for e in d.search.problem.effects_of(ids)))
 
 
 def predictions(d: Diagnosis) -> pd.DataFrame:

@@ -6,7 +6,6 @@ from mixedlub.data_checks.audit import SCARCE
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.labels import STAGE_WORDS, effect_words, enumerated, explanation_words, with_names
-from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.settings.inference import LIKELY
 from mixedlub.diagnosis.settings.report import LEAST_P, MOST_TIED, STAGE_SHOWN
 from mixedlub.schema.findings import Severity, codes, grouped, of_severity
@@ -99,7 +98,7 @@ def _verdict(d: Diagnosis) -> str:
         count = len(d.excluded)
         which = f"of those weighed explains ({count} left out on request)" if count else "of the catalogue explains"
         return f"Something is missing that no one effect {which}, nor any two tried together (probability {p})."
-    effects = effects_of(posterior.verdict.effects)
+    effects = d.search.problem.effects_of(posterior.verdict.effects)
     free = [effect_words(e.id) for e in effects if e.descriptive]
     physics = [effect_words(e.id) for e in effects if e.stage != "measurement" and not e.replaces and not e.descriptive]
     laws = [effect_words(e.id) for e in effects if e.replaces]
@@ -154,7 +153,7 @@ def probabilities(d: Diagnosis) -> list[str]:
     """Probabilities of the answer's effects, and of the steps of the model at fault."""
     posterior = d.posterior
     sentences = _each(d, set(_common(d)))
-    stages = {name: p for name, p in posterior.stages().items() if p >= STAGE_SHOWN}
+    stages = {name: p for name, p in posterior.stages(d.search).items() if p >= STAGE_SHOWN}
     if posterior.verdict != NOTHING and stages:
         ranked = sorted(stages.items(), key=lambda item: -item[1])
         sentences.append(

@@ -23,7 +23,6 @@ from mixedlub.diagnosis.labels import (
     with_names,
     words_of,
 )
-from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.report.text.alternatives import AS_IF_NOTHING, alternatives
 from mixedlub.diagnosis.report.text.headline import doubts, headline, lesser, p_words, probabilities, probability_words
 from mixedlub.diagnosis.report.text.location_text import where
@@ -167,7 +166,7 @@ def _left_out(d: Diagnosis) -> Section:
     if not posterior.verdict.effects:
         return Section(LEFT_OUT, ())
     sentences: list[str] = []
-    for e in effects_of(posterior.verdict.effects):
+    for e in d.search.problem.effects_of(posterior.verdict.effects):
         sentences += [
             f"{with_names(effect_words(e.id))}, {probability_words(d, e.id)}, in {STAGE_WORDS[e.stage]}: {e.summary}",
             equation_sentence(e),

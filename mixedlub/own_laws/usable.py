@@ -1,0 +1,89 @@
+"""Checks of a law of the user in a model: what it reads is there in time, and it has finite values."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from mixedlub.chain.effect import Effect
+from mixedlub.chain.model import Chain, ChainError, Model
+from mixedlub.chain.ranges import beyond
+from mixedlub.own_laws.law import FileLaw
+from profiles.errors import InputError, nearest
+
+TRIED = (-2.0, 0.0, 2.0)
+"""Standard deviations from the prior median at which each parameter is tried."""
+
+
+def check_usable(law: Effect, chain: Chain, inputs: Mapping[str, Any], want: str, model_of: str) -> None:
+    """Raise an error for a law that cannot act on the wanted quantity of a model, or has no finite value in its range.
+
+    ``model_of``: the model in words, for the message.
+    """
+    own = law.law
+    assert isinstance(own, FileLaw)
+    where, made = f"{own.path}", {*inputs, *(name for name, _ in chain)}
+    for name in own.arguments:
+        if name not in made:
+            key = "acts_on" if name in law.acts_on else "expression"
+            rule = f"the model of a {model_of} has no such quantity; {nearest(name, made)}"
+            raise InputError(rule, where=f"{where}: {key}", value=name)
+    changed = law.acts_on[0]
+    read = [name for name in law.reads if name in made]
+    try:
+        model = Model(chain, tuple(inputs), (want,), (law,))
+    except ChainError:
+        rule = f"is cyclic: of {', '.join(read)}, a part exists only after {changed} was used, and depends on it"
+        raise InputError(rule, where=f"{where}: expression", value=own.file.expression) from None
+    if not any(step.effect == law.id for step in model.steps):
+        rule = f"the {want.replace('_', ' ')} of a {model_of} does not depend on it"
+        raise InputError(rule, where=f"{where}: acts_on", value=changed)
+    limits = {name: ends for name, ends in law.valid.items() if name in made}
+    base = Model(chain, tuple(inputs), tuple(dict.fromkeys((*own.arguments, *limits, want))))(inputs)
+    within = _within(base, limits)
+    for values in _tried(law):
+        with np.errstate(all="ignore"):
+            found = own.expression_at(base, values)
+        _refuse_infinite(law, found, base, within, values)
+    with np.errstate(all="ignore"):
+        result = np.asarray(Model(chain, tuple(inputs), (want,), (law,))(inputs)[want])
+        unchanged = np.asarray(own(*(base[name] for name in own.arguments), **law.nulls))
+    if np.ndim(result) > 1 and result.shape[-1] > 1 and np.shape(base[want])[-1] == 1:
+        rule = f"varies along the path of contact, and {changed} is one number a row"
+        raise InputError(rule, where=f"{where}: expression", value=own.file.expression)
+    off = any(p.null is not None for p in law.parameters)
+    if off and not np.array_equal(*np.broadcast_arrays(unchanged, base[changed])):
+        nulls = ", ".join(f"{p.name} = {p.null:g}" for p in law.parameters if p.null is not None)
+        rule = f"must leave {changed} as it is at {nulls}: correct null, or leave it out"
+        raise InputError(rule, where=f"{where}: parameters", value=own.file.expression)
+
+
+def _tried(law: Effect) -> list[dict[str, float]]:
+    """Parameter values at which a law must be finite: as stated, and each parameter through its prior."""
+    stated = law.law_values()
+    every = [{**law.fixed, **stated}]
+    for p in law.parameters:
+        every += [{**law.fixed, **stated, p.name: p.prior.value(z)} for z in TRIED]
+    return every
+
+
+def _within(state: Mapping[str, Any], limits: Mapping[str, tuple[float, float]]) -> np.ndarray:
+    return np.asarray(~beyond(state, limits)) if limits else np.ones(1, bool)
+
+
+def _refuse_infinite(
+    law: Effect, found: np.ndarray, state: Mapping[str, Any], within: np.ndarray, values: Mapping[str, float]
+) -> None:
+    own = law.law
+    assert isinstance(own, FileLaw)
+    bad = ~np.isfinite(found) & within
+    if not bad.any():
+        return
+    place = tuple(int(i[0]) for i in np.nonzero(bad))
+    at = {name: float(np.broadcast_to(state[read.argument], bad.shape)[place]) for name, read in own.reads.items()}
+    shown = {name: (at[name] - read.added) / read.factor for name, read in own.reads.items()} | dict(values)
+    text = ", ".join(f"{name} = {value:.4g}" for name, value in shown.items())
+    rule = f"is not finite in its range, at {text}; a range that leaves this out, or another form, is needed"
+    raise InputError(rule, where=f"{own.path}: expression", value=own.file.expression)
