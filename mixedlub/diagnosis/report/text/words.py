@@ -263,10 +263,10 @@ def _improved(d: Diagnosis) -> tuple[str, ...]:
         error = d.tabulated.rms_error
         return (
             "The folder improved is the calibrated base model with a table of the missing part, which has no law: "
-            f"{FILE}, with its standard deviation. {run} It is interpolated between its rows, at the recorded "
-            f"conditions to {error:.2g} sigma (rms) of the predictions. It holds inside the recorded range only. Rows "
-            "outside say so in their column validity; they keep the value at the end of the range, as a jump there would be an "
-            "invention, and rows with surfaces that were not recorded have the calibrated base model.",
+            f"{FILE}, with its standard deviation. {run} At the recorded conditions it follows the predictions to "
+            f"{error:.2g} sigma (rms). It holds inside the recorded range only. Rows outside say so in their column "
+            "validity; they keep the value at the end of the range, as a jump there would be an invention, and rows "
+            "with surfaces that were not recorded have the calibrated base model.",
         )
     if d.handed_on == BASE_ALONE:
         return (f"The folder improved is the calibrated base model alone. {run}",)
