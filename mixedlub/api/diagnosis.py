@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mixedlub.case.folder import Case, conditions_for, read_case
+from mixedlub.case.folder import Case, conditions_for, read_case, with_hypotheses
 from mixedlub.case.simulation import simulate as simulated
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnosis_of
 from mixedlub.diagnosis.report.files import case_origin, files, write
@@ -159,6 +159,7 @@ def diagnose(
     *,
     exclude: str | Sequence[str] = (),
     level: float = 0.01,
+    hypotheses: Sequence[str | PathLike[str]] = (),
 ) -> Answer:
     """Diagnose which physics is missing in the base model of a recorded case.
 
@@ -172,6 +173,8 @@ def diagnose(
         Ids of effects left out of the catalogue.
     level : float, optional
         Significance level of the mismatch test.
+    hypotheses : sequence of str or PathLike, optional
+        Law files that compete with the catalogue, beside those in the folder ``hypotheses`` of the case.
 
     Returns
     -------
@@ -193,7 +196,7 @@ def diagnose(
     >>> ml.diagnose(ml.case.case_of(drive, rows)).verdict
     ['stribeck']
     """
-    found = _case(case, "diagnose")
+    found = with_hypotheses(_case(case, "diagnose"), [as_path(one, "hypotheses") for one in hypotheses])
     asked = found.conditions if predict is None else conditions_for(found, predict)
     return Answer(diagnosis_of(found, asked, _ids(exclude), level))
 

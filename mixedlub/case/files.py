@@ -5,18 +5,22 @@ from __future__ import annotations
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from mixedlub.case.folder import Case
+from mixedlub.case.folder import HYPOTHESES, Case
 from mixedlub.case.missing_part import FILE as MISSING_PART
+from mixedlub.own_laws import path_of, text_of
 from mixedlub.schema.surface_file import SURFACE_FILES
 from mixedlub.schema.table import Table
 from mixedlub.schema.toml_file import named_file, to_toml
 from profiles import SHIPPED_MARK
 
+LAWS = "laws"
+"""Folder of the law files that ``[effects]`` names, in a written case."""
 TABLES = ("recordings", "conditions")
 
 
 def case_files(case: Case) -> dict[str, str | bytes]:
-    """Contents by path in the folder; traces and tables from elsewhere are stored in the folder `profiles`.
+    """Contents by path in the folder; traces and tables from elsewhere are stored in the folder `profiles`, law files
+    in the folders `laws` and `hypotheses`.
 
     >>> import mixedlub as ml, pandas as pd
     >>> drive = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm"}}
@@ -41,11 +45,23 @@ def case_files(case: Case) -> dict[str, str | bytes]:
                 for one in ([given] if isinstance(given, str) else given)
             ]
             surface[key] = files[0] if isinstance(given, str) else files
+    carried |= law_files(case, system)
     tables = {f"{name}.csv": _csv(getattr(case, name)) for name in TABLES if getattr(case, name) is not None}
     if case.missing is not None:
         system["missing_part"] = MISSING_PART
         tables[MISSING_PART] = _csv(case.missing.table)
     return {"system.toml": to_toml(system), **tables, **carried}
+
+
+def law_files(case: Case, system: dict[str, Any]) -> dict[str, bytes]:
+    """Law files of a case by path; ``[effects]`` of the written system then names these paths."""
+    places = {name: f"{HYPOTHESES if name in case.hypotheses else LAWS}/{name}.toml" for name in case.laws}
+    # A law beside the case, as one that a diagnosis found, stays there.
+    beside = {name: path_of(law) for name, law in case.laws.items()}
+    places |= {name: path.name for name, path in beside.items() if path == Path(path.name)}
+    if places:
+        system["effects"] = {places.get(name, name): own for name, own in system.get("effects", {}).items()}
+    return {path: text_of(case.laws[name]).encode() for name, path in places.items()}
 
 
 def _carry(carried: dict[str, bytes], folder: Path, name: str, key: str) -> str:

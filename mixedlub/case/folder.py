@@ -163,7 +163,7 @@ def case_of(
         return table_of(frames[which], columns, which) if which in frames else None
 
     parsed = toml_file.parse(system_file.System, {"schema": "mixedlub-case/1", **system}, name)
-    return _checked(name, Path(folder), parsed, name, table, [as_path(one, "hypotheses") for one in hypotheses])
+    return _checked(name, Path(folder), parsed, name, table, hypotheses)
 
 
 def _checked(
@@ -172,7 +172,7 @@ def _checked(
     system: system_file.System,
     where: str,
     table: Callable[[str, tuple[Column, ...]], Table | None],
-    hypotheses: Sequence[Path],
+    hypotheses: Sequence[str | Path],
 ) -> Case:
     """The checked case of a parsed system; ``table`` returns its recordings or conditions for the allowed columns."""
     found = kind(system.kind)
@@ -195,10 +195,8 @@ def _checked(
         conditions = table("conditions", _columns(found, system, False))
         conditions = None if conditions is None else _with_filled_sds(conditions, f"{quantity}_sd")
         missing = _missing_part(folder, system, found)
-    columns = [c.name for c in (*BOOKKEEPING, *found.columns) if c.dtype == "number"]
-    effects, laws = by_id(system.effects, folder, columns)
-    rivals = {name: as_hypothesis(law) for name, law in read_laws(hypotheses, columns).items()}
-    return Case(
+    effects, laws = by_id(system.effects, folder, _numbers(found))
+    case = Case(
         name,
         folder,
         system.model_copy(update={"effects": effects}) if laws else system,
@@ -207,10 +205,23 @@ def _checked(
         recordings,
         conditions,
         tuple(notes),
-        distinct([*laws.values(), *rivals.values()]),
-        tuple(rivals),
-        missing,
+        laws,
+        missing=missing,
     )
+    return with_hypotheses(case, hypotheses)
+
+
+def with_hypotheses(case: Case, paths: Sequence[str | Path]) -> Case:
+    """The case with further law files that compete with the catalogue."""
+    files = [as_path(one, "hypotheses") for one in paths]
+    rivals = {name: as_hypothesis(law) for name, law in read_laws(files, _numbers(case.kind)).items()}
+    laws = distinct([*case.laws.values(), *rivals.values()])
+    return replace(case, laws=laws, hypotheses=(*case.hypotheses, *rivals))
+
+
+def _numbers(found: Kind) -> list[str]:
+    """Columns of conditions that are numbers."""
+    return [c.name for c in (*BOOKKEEPING, *found.columns) if c.dtype == "number"]
 
 
 def _missing_part(folder: Path, system: system_file.System, found: Kind) -> MissingPart | None:

@@ -28,9 +28,10 @@ from mixedlub.diagnosis.assessment.answer_checks import (
     overdispersion_warning,
 )
 from mixedlub.diagnosis.assessment.check_channel import Check, check_channel
-from mixedlub.diagnosis.assessment.cross_validation import HeldOut
+from mixedlub.diagnosis.assessment.cross_validation import HeldOut, LevelsOut
 from mixedlub.diagnosis.assessment.experiment_design import NextTest, next_tests
 from mixedlub.diagnosis.assessment.extrapolation import beyond_recorded
+from mixedlub.diagnosis.assessment.hypotheses import Hypothesis, weigh
 from mixedlub.diagnosis.assessment.location import Region, region, time_columns
 from mixedlub.diagnosis.assessment.mismatch_test import Mismatch, mismatch_against_null
 from mixedlub.diagnosis.assessment.model_averaging import (
@@ -82,6 +83,7 @@ class Diagnosis:
     warnings: tuple[Finding, ...]
     excluded: tuple[str, ...] = ()
     noise_stated: bool = True
+    hypotheses: tuple[Hypothesis, ...] = ()
 
     @property
     def readings(self) -> np.ndarray:
@@ -178,7 +180,7 @@ def diagnosis_of(
     progress: Progress = lambda text: None,
 ) -> Diagnosis:
     """Diagnose a case and predict the ``requested`` conditions."""
-    find(list(exclude), "exclude")
+    find(list(exclude), "exclude", case.laws)
     _refuse_level(level)
     rows = rows_of(case)
     with collected() as assumed:
@@ -207,7 +209,9 @@ def diagnosis_of(
     warnings += noise_notes(search, noise_search.stated, noise_search.inflation)
     progress("leaving levels out")
     with threadpool_limits(limits=1, user_api="blas"):
-        decided, heldout = judge(search, test)
+        levels = LevelsOut.of(search)
+        decided, heldout = judge(search, test, levels)
+        hypotheses = weigh(search, decided, levels)
     heldout = heldout.single_reading_units(search.full_screen.problem.n_per_effective)
     refined = leaders(search, decided)
     progress("predicting")
@@ -240,6 +244,7 @@ def diagnosis_of(
         all_warnings,
         left_out,
         noise_search.stated,
+        hypotheses,
     )
 
 

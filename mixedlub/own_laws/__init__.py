@@ -51,6 +51,12 @@ def path_of(law: Effect) -> Path:
     return law.law.path
 
 
+def text_of(law: Effect) -> str:
+    """Content of the file of a law of the user, as it was read."""
+    assert isinstance(law.law, FileLaw)
+    return law.law.text
+
+
 def columns_read(laws: Iterable[Effect], rows: Mapping[str, Any]) -> dict[str, Any]:
     """Columns of a recording that laws read as recorded, as inputs of the shape (rows, 1)."""
     return {
@@ -72,4 +78,5 @@ __all__ = [
     "path_of",
     "read_law",
     "read_laws",
+    "text_of",
 ]

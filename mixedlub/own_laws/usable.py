@@ -30,6 +30,10 @@ def check_usable(law: Effect, chain: Chain, inputs: Mapping[str, Any], want: str
             key = "acts_on" if name in law.acts_on else "expression"
             rule = f"the model of a {model_of} has no such quantity; {nearest(name, made)}"
             raise InputError(rule, where=f"{where}: {key}", value=name)
+    for name in law.valid:
+        if name not in made:
+            rule = f"the model of a {model_of} has no such quantity; {nearest(name, made)}"
+            raise InputError(rule, where=f"{where}: range", value=name)
     changed = law.acts_on[0]
     read = [name for name in law.reads if name in made]
     try:
@@ -40,9 +44,8 @@ def check_usable(law: Effect, chain: Chain, inputs: Mapping[str, Any], want: str
     if not any(step.effect == law.id for step in model.steps):
         rule = f"the {want.replace('_', ' ')} of a {model_of} does not depend on it"
         raise InputError(rule, where=f"{where}: acts_on", value=changed)
-    limits = {name: ends for name, ends in law.valid.items() if name in made}
-    base = Model(chain, tuple(inputs), tuple(dict.fromkeys((*own.arguments, *limits, want))))(inputs)
-    within = _within(base, limits)
+    base = Model(chain, tuple(inputs), tuple(dict.fromkeys((*own.arguments, *law.valid, want))))(inputs)
+    within = np.asarray(~beyond(base, law.valid)) if law.valid else np.ones(1, bool)
     for values in _tried(law):
         with np.errstate(all="ignore"):
             found = own.expression_at(base, values)
@@ -54,7 +57,7 @@ def check_usable(law: Effect, chain: Chain, inputs: Mapping[str, Any], want: str
         rule = f"varies along the path of contact, and {changed} is one number a row"
         raise InputError(rule, where=f"{where}: expression", value=own.file.expression)
     off = any(p.null is not None for p in law.parameters)
-    if off and not np.array_equal(*np.broadcast_arrays(unchanged, base[changed])):
+    if off and not np.all(unchanged == base[changed]):
         nulls = ", ".join(f"{p.name} = {p.null:g}" for p in law.parameters if p.null is not None)
         rule = f"must leave {changed} as it is at {nulls}: correct null, or leave it out"
         raise InputError(rule, where=f"{where}: parameters", value=own.file.expression)
@@ -67,10 +70,6 @@ def _tried(law: Effect) -> list[dict[str, float]]:
     for p in law.parameters:
         every += [{**law.fixed, **stated, p.name: p.prior.value(z)} for z in TRIED]
     return every
-
-
-def _within(state: Mapping[str, Any], limits: Mapping[str, tuple[float, float]]) -> np.ndarray:
-    return np.asarray(~beyond(state, limits)) if limits else np.ones(1, bool)
 
 
 def _refuse_infinite(

@@ -10,7 +10,6 @@ from html import escape
 
 from mixedlub.chain.law import DISPLAY, SOURCE
 from mixedlub.chain.model import Model
-from mixedlub.effects import find
 from mixedlub.report.equations import equation
 
 _INLINE = re.compile(r":math:`([^`]+)`")
@@ -34,7 +33,7 @@ def laws_used(model: Model) -> Iterator[LawText]:
     for step in model.steps:
         gives = ", ".join(name.replace("_", " ") for name in step.outputs)
         if step.effect is not None:
-            (e,) = find([step.effect])
+            e = next(e for e in model.effects if e.id == step.effect)
             html = _inlined(e.summary) + _displayed(e.equation)
             yield LawText(gives, html, escape(e.source), effect=e.id.replace("_", " "))
         else:

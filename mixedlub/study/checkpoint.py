@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mixedlub.own_laws import text_of
 from mixedlub.running.atomic import PARTS, whole
 from mixedlub.running.origin import code_fingerprint
 from mixedlub.study.batch import Found
@@ -43,6 +44,7 @@ def input_fingerprint(plan: Plan) -> str:
         digest.update(table.tobytes())
     chosen = [plan.options.model_dump(), {k: dict(v) for k, v in plan.parameters.items()}, plan.shape]
     chosen += [] if plan.safety is None else [plan.safety.model_dump()]
+    chosen += [text_of(law) for law in plan.laws.values()]
     digest.update(json.dumps(chosen, sort_keys=True).encode())
     return digest.hexdigest()
 

@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from mixedlub import friction
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Parameters, available
 from mixedlub.chain.slots import SLIDING_POWER, STEPS
 from mixedlub.effects import LAW, find, known_effects, known_in
+from mixedlub.own_laws import check_usable
 from mixedlub.schema.findings import finding, report
 from mixedlub.schema.system_file import Gears, LoadSharing
 from mixedlub.study.heat import BULK, check_exponent
@@ -24,21 +27,35 @@ AREA_ALONE = ("balance", "asperities", "mixture", "heights")
 unchanged."""
 
 
-def chosen_effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, ...], Parameters]:
-    """The active effects, with each parameter at its given value or at the value of its law."""
+def chosen_effects(
+    file: StudyFile, inputs: Mapping[str, Any], laws: Mapping[str, Effect]
+) -> tuple[tuple[Effect, ...], Parameters]:
+    """The active effects, with each parameter at its given value or at the value of its law; ``laws``: of the user."""
     _refuse_unread(file, tuple(inputs))
-    for e in find(sorted(file.effects), "effects"):
+    for e in find(sorted(file.effects), "effects", laws):
         _refuse_ignored(e, file.options)
         _refuse_second_law(e, file.options)
         _refuse_stated_teeth(e, file.gears.load_sharing)
         _refuse_stated_rise(e, file.options)
-    known = known_effects(file.effects, "gear_pair", study_chain(file.options), tuple(inputs), "power_loss")
+    chain = study_chain(file.options)
+    for law in laws.values():
+        check_usable(law, chain, _corners(inputs), "power_loss", "study")
+    known = known_effects(file.effects, "gear_pair", chain, tuple(inputs), "power_loss", laws)
     for effect, name in known.sds:
         raise InputError("a study has no uncertainty; leave it out", where=f"effects.{effect}.{name}_sd")
     check_exponent(known.values)
     for e in known.effects:
         _tell_defaults(e, file.effects[e.id], known.values[e.id])
     return known.effects, known.values
+
+
+def _corners(inputs: Mapping[str, Any]) -> dict[str, Any]:
+    """Inputs at the first and last levels of each factor, at all points of the path."""
+    found = dict(inputs)
+    for name, value in inputs.items():
+        for axis in range(np.ndim(value) - 1):
+            found[name] = np.take(found[name], [0, -1] if np.shape(value)[axis] > 1 else [0], axis)
+    return found
 
 
 def _refuse_ignored(e: Effect, options: Options) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from inspect import signature
 from os import PathLike
@@ -25,6 +25,7 @@ from mixedlub.gear.inputs import motion_inputs
 from mixedlub.laws.load import LEAST_SHARE
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.laws.rough_film import THINNEST
+from mixedlub.own_laws import by_id
 from mixedlub.rig.build import check_bandwidth
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.plausibility import implausible
@@ -87,7 +88,7 @@ class Plan:
     ``inputs``: SI arrays of up to five axes (pairing, oil temperature, torque, speed, mesh), of length one on axes they
     do not depend on. ``shape``: number of levels of the first four axes. ``points``: length of the mesh axis.
     ``bands``: inputs of the surfaces for the bands of the results. ``heights``: contact integrals of non-normal
-    heights.
+    heights. ``laws``: laws of the user by id.
     """
 
     inputs: Mapping[str, Any]
@@ -98,11 +99,12 @@ class Plan:
     bands: tuple[Group, ...] = ()
     heights: HeightTables | None = None
     safety: Safety | None = None
+    laws: Mapping[str, Effect] = field(default_factory=dict)
 
     @property
     def effects(self) -> tuple[Effect, ...]:
         """The active effects."""
-        return find(sorted(self.parameters)) if self.parameters else ()
+        return find(sorted(self.parameters), laws=self.laws) if self.parameters else ()
 
     def model(self, also: Iterable[str] = ()) -> Model:
         """Chain of the chosen options with the active effects and their losses; ``also``: additional outputs."""
@@ -280,6 +282,8 @@ def pairings_of(section: Pairings | None, known: Mapping[str, object]) -> tuple[
 
 
 def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
+    effects, laws = by_id(file.effects, rig.folder)
+    file = file.model_copy(update={"effects": effects}) if laws else file
     chosen = pairings_of(file.pairings, file.surfaces)
     used = dict.fromkeys(s for both in chosen for s in both)
     idle = [s for s in file.surfaces if s not in used]
@@ -307,20 +311,20 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     heights = height_tables(options.heights, rig, surfaces, chosen)
     if heights is not None:
         inputs["height_row"] = heights.rows.reshape(-1, 1, 1, 1, 1)
-    if any(HEAT in e.reads for e in find(sorted(file.effects), "effects")):
+    if any(HEAT in e.reads for e in find(sorted(file.effects), "effects", laws)):
         bare = Model(study_chain(options, {} if heights is None else heights.laws()), tuple(inputs), (LOSS,))
         inputs |= heat_inputs(bare, inputs, shape, points.position.size)
-    effects, parameters = chosen_effects(file, inputs)
+    active, parameters = chosen_effects(file, inputs, laws)
     moved = groups(options.bands, rig, surfaces, chosen, surface_inputs)
     inputs |= rating_inputs(inputs, parameters)
-    plan = Plan(inputs, options, parameters, shape, points.position.size, moved, heights, file.safety)
+    plan = Plan(inputs, options, parameters, shape, points.position.size, moved, heights, file.safety, laws)
     check_friction(file, plan.model())
     if plan.reads_mean_roughness:
         for found in mean_assumed(surfaces.values()):
             report(found)
     if plan.balanced and options.mixture == "tallian":
         report(finding("balance_by_area", BY_AREA, "options.mixture"))
-    return Study(name, file, rig, pair, points, oil, surfaces, chosen, effects, plan)
+    return Study(name, file, rig, pair, points, oil, surfaces, chosen, active, plan)
 
 
 def _check_film_roughness(file: StudyFile, surfaces: Mapping[str, Surface]) -> None:

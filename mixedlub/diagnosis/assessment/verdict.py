@@ -15,13 +15,12 @@ from mixedlub.diagnosis.settings.assessment import VALIDATED
 from mixedlub.diagnosis.settings.inference import LIKELY
 
 
-def judge(search: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
+def judge(search: Search, test: Mismatch, levels: LevelsOut) -> tuple[Posterior, HeldOut]:
     """Posterior probabilities, with cross-validation of the verdict and of all tied explanations.
 
     Beyond VALIDATED explanations, the others get the least penalty of these. The discrepancy is compared with the first
     effects. If even the best of them is overdispersed on left-out levels, the odds between effects are reduced.
     """
-    levels = LevelsOut.of(search)
     weights = search.log_weights
     names = sorted((key for key in search.scores if key.effects), key=lambda key: -weights[key])
     tried: dict[Explanation, tuple[HeldOut, float]] = {}

@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from mixedlub.case.files import LAWS, law_files
+from mixedlub.case.folder import HYPOTHESES, Case
 from mixedlub.diagnosis.assessment.power_law import DescribedDiscrepancy, describe_discrepancy
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.explanation import DISCREPANCY
@@ -50,7 +52,8 @@ def diagnose(
 
 def case_origin(folder: Path) -> Origin:
     """Origin of an answer: the files of its case."""
-    return origin_of(folder, ("system.toml", "recordings.csv"))
+    laws = sorted(f"{HYPOTHESES}/{path.name}" for path in (folder / HYPOTHESES).glob("*.toml"))
+    return origin_of(folder, ("system.toml", "recordings.csv", *laws))
 
 
 def files(d: Diagnosis) -> dict[str, str | bytes]:
@@ -65,9 +68,16 @@ def texts(d: Diagnosis, extra: DescribedDiscrepancy | None) -> dict[str, str | b
         "diagnosis.json": json.dumps({**as_json(d), **_discrepancy_record(extra)}, indent=1, ensure_ascii=False) + "\n",
         "predictions.csv": predictions(d).to_csv(index=False, float_format="%.9g", lineterminator="\n"),
         "report.txt": _text(d, words.sections(d, extra)),
-        AS_USED: to_toml(d.given.system.model_dump(by_alias=True, exclude_unset=True)),
+        **_as_used(d.given),
         **improved_files(d),
     }
+
+
+def _as_used(case: Case) -> dict[str, str | bytes]:
+    """The system as used, with the laws of the user."""
+    system = case.system.model_dump(by_alias=True, exclude_unset=True)
+    laws = law_files(case, system)
+    return {AS_USED: to_toml(system), **{f"{AS_USED.rpartition('/')[0]}/{path}": text for path, text in laws.items()}}
 
 
 def drawings(d: Diagnosis, extra: DescribedDiscrepancy | None) -> dict[str, str | bytes]:
@@ -133,8 +143,10 @@ def write(contents: Mapping[str, str | bytes], out: Path, origin: Origin | None 
 
 def drop_earlier(contents: Mapping[str, str | bytes], folder: Path) -> None:
     """Remove files of the improved model that only an earlier answer wrote."""
-    for name in FILES:
+    laws = (path.relative_to(folder).as_posix() for path in (folder / LAWS).glob("*.toml"))
+    for name in (*FILES, *laws):
         if f"{folder.name}/{name}" not in contents:
             (folder / name).unlink(missing_ok=True)
-    if folder.is_dir() and not any(folder.iterdir()):
-        folder.rmdir()
+    for place in (folder / LAWS, folder):
+        if place.is_dir() and not any(place.iterdir()):
+            place.rmdir()

@@ -50,8 +50,10 @@ def improved_case(d: Diagnosis) -> Case:
     missing = d.given.missing
     if d.handed_on == TABLE:
         missing, update = d.tabulated.missing, {**update, "missing_part": FILE}
+    system = given.model_copy(update=update)
+    laws = {name: law for name, law in d.given.laws.items() if name in system.effects}
     conditions = None if d.wanted is None else d.wanted.table
-    return replace(d.given, system=given.model_copy(update=update), conditions=conditions, missing=missing)
+    return replace(d.given, system=system, conditions=conditions, laws=laws, hypotheses=(), missing=missing)
 
 
 def improved_files(d: Diagnosis) -> dict[str, str | bytes]:

@@ -70,6 +70,7 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
         ],
         "warnings": [str(one) for one in d.warnings],
         "findings": as_records(d.warnings),
+        **({"hypotheses": [asdict(one) for one in d.hypotheses]} if d.hypotheses else {}),
         **({} if d.check is None else {"check": asdict(d.check)}),
     }
 

@@ -25,6 +25,7 @@ from mixedlub.diagnosis.labels import (
 )
 from mixedlub.diagnosis.report.text.alternatives import AS_IF_NOTHING, alternatives
 from mixedlub.diagnosis.report.text.headline import doubts, headline, lesser, p_words, probabilities, probability_words
+from mixedlub.diagnosis.report.text.hypotheses import hypotheses
 from mixedlub.diagnosis.report.text.location_text import where
 from mixedlub.diagnosis.report.text.nearest_effect import nearest_name
 from mixedlub.diagnosis.report.text.next_test_text import box_place, local_position, next_test, wave_period
@@ -42,6 +43,7 @@ LEFT_OUT = "What was left out?"
 BEST_TIED = "What was left out? Best of the tied candidates"
 UNNAMED = "If it is something unknown"
 ALIKE = "What else could it be?"
+OWN = "Your hypotheses"
 GAIN = "How much better is it on conditions it did not fit?"
 NATS = (
     f"A nat is a factor 2.7 in the odds: below about {STRONG_EVIDENCE:g} nats these readings do not distinguish the "
@@ -79,6 +81,7 @@ def sections(d: Diagnosis, unnamed: DescribedDiscrepancy | None = None) -> list[
         Section(WHERE, where(d)),
         _left_out(d),
         *([_discrepancy(d, unnamed)] if unnamed is not None else []),
+        Section(OWN, *hypotheses(d)),
         Section(ALIKE, resemblance, items=separating),
         Section(GAIN, _gain(d)),
         Section(CHECK, checked_channel(d)),
