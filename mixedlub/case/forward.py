@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from operator import is_
@@ -96,6 +97,15 @@ class Forward:
             *(of_base_law(e, p) for e in self.uncertain_laws for p in e.parameters if p.base_sd),
         )
         self._check_calibration()
+
+    def with_laws(self, case: Case) -> Forward:
+        """The same rows of a case that has further laws."""
+        found = copy(self)
+        found.case = case
+        found.inputs = {**self.inputs, **columns_read(case.laws.values(), self.table.columns)}
+        found.catalogue = MappingProxyType({**self.catalogue, **case.laws})
+        found._model = lru_cache(maxsize=1024)(found._build)
+        return found
 
     def _add(self, missing: MissingPart) -> None:
         """Make a table of the missing part an effect of the base model."""
