@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from numbers import Real
 from pathlib import Path
@@ -47,6 +47,7 @@ from mixedlub.diagnosis.assessment.published_laws import Contained, contained
 from mixedlub.diagnosis.assessment.tabulated import Tabulated, tabulated
 from mixedlub.diagnosis.assessment.validity import beyond_range, unpublished
 from mixedlub.diagnosis.assessment.verdict import judge
+from mixedlub.diagnosis.discovery.laws import FoundLaw, find_law
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.labels import effect_words
 from mixedlub.diagnosis.search.noise_selection import search_under_noise
@@ -59,7 +60,7 @@ from mixedlub.schema.findings import Finding, collected, finding
 from mixedlub.schema.table import Table
 from profiles.errors import InputError
 
-CALIBRATION, EFFECTS, TABLE = "calibration", "effects", "table"
+CALIBRATION, EFFECTS, LAW, TABLE = "calibration", "effects", "law", "table"
 """Models that an answer hands on."""
 
 
@@ -84,6 +85,7 @@ class Diagnosis:
     excluded: tuple[str, ...] = ()
     noise_stated: bool = True
     hypotheses: tuple[Hypothesis, ...] = ()
+    law: FoundLaw | None = None
 
     @property
     def readings(self) -> np.ndarray:
@@ -123,15 +125,34 @@ class Diagnosis:
 
     @property
     def handed_on(self) -> str:
-        """The model in `improved` and in the predictions: the answer, unless calibration alone predicts left-out levels
-        better. A discrepancy is handed on as a table."""
+        """The model in `improved` and in the predictions: of the answer and calibration alone, the one that predicts
+        left-out levels best. A discrepancy is handed on as a law or as a table."""
         verdict = self.posterior.verdict
-        if verdict == NOTHING or self.heldout.after > self.heldout.before:
-            return CALIBRATION
-        return TABLE if verdict.is_discrepancy else EFFECTS
+        errors = {CALIBRATION: self.heldout.before}
+        if verdict.is_discrepancy:
+            errors |= {} if self.law is None else {LAW: self.law.heldout.after}
+            errors |= {TABLE: self.heldout.after}
+        elif verdict != NOTHING:
+            errors |= {EFFECTS: self.heldout.after}
+        return min(errors, key=errors.__getitem__)
+
+    @property
+    def handed_on_error(self) -> float:
+        """Error on left-out levels of the model that is handed on."""
+        if self.handed_on == LAW and self.law is not None:
+            return self.law.heldout.after
+        return self.heldout.before if self.handed_on == CALIBRATION else self.heldout.after
 
     def handed(self, p: Predicted) -> Predicted:
-        """Predictions by the model that is handed on."""
+        """Predictions by the model that is handed on; the mismatch remains that of the answer."""
+        if self.handed_on == LAW and self.law is not None:
+            law = self.law
+            with threadpool_limits(limits=1, user_api="blas"):
+                own = averaged(law.search, law.posterior, dict(law.refined), p.table)
+            # Beyond its range a power may explode, while the smooth discrepancy fades.
+            names = ("predicted", "low90", "high90")
+            inside = law.holds(p.table)
+            return replace(p, **{n: np.where(inside, getattr(own, n), getattr(p, n)) for n in names})
         if self.handed_on == CALIBRATION and self.posterior.verdict != NOTHING:
             return by_calibration(self.search, p, self.heldout.before)
         return p
@@ -212,6 +233,7 @@ def diagnosis_of(
         levels = LevelsOut.of(search)
         decided, heldout = judge(search, test, levels)
         hypotheses = weigh(search, decided, levels)
+        law = find_law(search, levels) if decided.verdict.is_discrepancy else None
     heldout = heldout.single_reading_units(search.full_screen.problem.n_per_effective)
     refined = leaders(search, decided)
     progress("predicting")
@@ -225,7 +247,8 @@ def diagnosis_of(
     mismatch_region = region(rows, [*varied, *passing], np.where(outlier_chance > LIKELY, 0.0, recorded.mismatch_z))
     laws = contained(search, decided.verdict)
     tests = next_tests(search, decided, refined, columns, varied)
-    warnings += _cautions(search, decided, heldout, refined, recorded.predicted, outlier_chance > LIKELY)
+    shown = heldout if law is None or law.heldout.after > heldout.after else law.heldout
+    warnings += _cautions(search, decided, shown, refined, recorded.predicted, outlier_chance > LIKELY)
     all_warnings = tuple(warnings)
     return Diagnosis(
         given,
@@ -245,6 +268,7 @@ def diagnosis_of(
         left_out,
         noise_search.stated,
         hypotheses,
+        law,
     )
 
 

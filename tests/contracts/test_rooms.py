@@ -40,6 +40,7 @@ ROOMS = {
         "discrepancy",
         "search",
         "assessment",
+        "discovery",
         "diagnose",
         "report",
     ),

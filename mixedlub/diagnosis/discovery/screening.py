@@ -14,11 +14,13 @@ from mixedlub.diagnosis.inference.map_fit import whitening
 from mixedlub.diagnosis.search.search import Search, spread_rows
 from mixedlub.diagnosis.settings.discovery import (
     KEPT_OF_TARGET,
+    OTHER_SHAPES,
     PRODUCT_PRIOR,
     SCREENED_ROWS,
     SUM_PRIOR,
 )
 from mixedlub.diagnosis.settings.discrepancy import NO_INFLUENCE, READING_SIZES
+from mixedlub.recording.conditions import PASSING
 
 QUANTITIES = {
     "film_thickness": "film",
@@ -92,6 +94,17 @@ def targets(search: Search) -> list[Target]:
     return found
 
 
+def price(c: Candidate, count: int) -> float:
+    """Log prior of a law: half of a term's prior is on powers, the rest on other shapes, over ``count`` variables."""
+    found = np.log(SUM_PRIOR) * (len(c.terms) - 1)
+    for term in c.terms:
+        shapes = term.shape.split(" x ")
+        found += np.log(PRODUCT_PRIOR) * (len(shapes) - 1)
+        found += sum(np.log(0.5) if "power" in shape else np.log(0.5 / OTHER_SHAPES) for shape in shapes)
+        found -= len(term.variables) * np.log(count)
+    return float(found)
+
+
 def screened(search: Search, every: Sequence[Variable]) -> list[Candidate]:
     """Candidates by their log posterior over none, best first."""
     problem, base = search.problem, search.discrepancy.base
@@ -101,7 +114,7 @@ def screened(search: Search, every: Sequence[Variable]) -> list[Candidate]:
     fixed = np.hstack([base.slopes, problem.shared])[rows]
     weight, target = search.discrepancy.fit.weight[rows], base.anchor[rows]
     singles = [term for v in every for term in single_terms(v)]
-    few = {v.text: bounded_terms(v) for v in every}
+    few = {v.text: bounded_terms(v) for v in every if v.text not in PASSING}
     products = [
         one.times(two)
         for first, second in combinations(few.values(), 2)
@@ -127,41 +140,45 @@ def screened(search: Search, every: Sequence[Variable]) -> list[Candidate]:
                 best.append(Candidate(t, (terms[i],), (float(amplitude[i]),), float(score[i])))
         best.sort(key=lambda c: -c.score)
         found += best
-        found += _sums(
-            best[:KEPT_OF_TARGET],
-            [*([flat] if t.form == ADD else []), *(added if t.form == ADD else singles)],
-            fixed,
-            weight,
-            target,
-            rows,
-        )
+        seconds = [flat, *added] if t.form == ADD else singles
+        found += _sums(t, [c for c in best if len(c.terms[0].variables) < 2], seconds, fixed, weight, target, rows)
     return sorted(found, key=lambda c: -c.score)
 
 
 def _sums(
-    best: Sequence[Candidate],
+    t: Target,
+    singles: Sequence[Candidate],
     terms: Sequence[Term],
     fixed: np.ndarray,
     weight: np.ndarray,
     target: np.ndarray,
     rows: np.ndarray,
 ) -> list[Candidate]:
-    """The leading candidates of a target with a second term."""
+    """Sums of two terms of a target: the first is the power of each variable, or one of the best terms."""
+    own = t.column[rows]
+    columns = np.array([term.values[rows] for term in terms]) * own
+    alone = _Whitened(fixed, weight, target)
+    evidence, amplitude = alone.evidence(columns)
+    firsts: dict[tuple[str, ...], int] = {}
+    for i in np.argsort(-evidence, kind="stable"):
+        kind = Candidate(t, (terms[i],), (0.0,), 0.0).kind
+        if terms[i].shape == "power" or len(firsts) < KEPT_OF_TARGET:
+            firsts.setdefault(kind, int(i))
     found: list[Candidate] = []
-    firsts: dict[tuple[str, ...], Candidate] = {}
-    for one in best:
-        firsts.setdefault(one.kind, one)
-    for one in list(firsts.values())[:3]:
-        own = one.target.column[rows]
-        first = (one.terms[0].values[rows] * own)[:, None]
+    for i in firsts.values():
+        first = columns[i][:, None]
         scale = READING_SIZES[-1] / max(float(np.sqrt(np.mean(first**2))), 1e-300)
-        whitened = _Whitened(np.hstack([fixed, scale * first]), weight, target)
-        columns = np.array([term.values[rows] for term in terms]) * own
-        evidence, amplitude = whitened.evidence(columns)
-        score = one.score + evidence - np.log(len(terms)) + np.log(SUM_PRIOR)
-        for i in np.argsort(-score, kind="stable")[:3]:
-            both = (one.terms[0].numbered(1), terms[i].numbered(2))
-            found.append(Candidate(one.target, both, (one.amplitudes[0], float(amplitude[i])), float(score[i])))
+        more, second = _Whitened(np.hstack([fixed, scale * first]), weight, target).evidence(columns)
+        score = evidence[i] + more - 2.0 * np.log(len(terms)) + np.log(SUM_PRIOR)
+        kinds: set[str] = set()
+        for k in np.argsort(-score, kind="stable"):
+            kind = f"{terms[k].shape} {terms[k].variables}"
+            if kind not in kinds:
+                kinds.add(kind)
+                both = (terms[i].numbered(1), terms[k].numbered(2))
+                found.append(Candidate(t, both, (float(amplitude[i]), float(second[k])), float(score[k])))
+            if len(kinds) == KEPT_OF_TARGET:
+                break
     return found
 
 

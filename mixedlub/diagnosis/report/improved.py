@@ -9,13 +9,14 @@ import numpy as np
 from mixedlub.case.files import TABLES, case_files
 from mixedlub.case.folder import Case
 from mixedlub.case.missing_part import FILE
-from mixedlub.diagnosis.diagnose import EFFECTS, TABLE, Diagnosis
+from mixedlub.diagnosis.diagnose import EFFECTS, LAW, TABLE, Diagnosis
+from mixedlub.diagnosis.discovery.files import FILE as LAW_FILE
 from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.labels import effect_words
 from mixedlub.diagnosis.report.text.answer import verdict_fit
 
 FOLDER = "improved"
-FILES = ("system.toml", FILE, *(f"{name}.csv" for name in TABLES))
+FILES = ("system.toml", FILE, str(LAW_FILE), *(f"{name}.csv" for name in TABLES))
 
 
 def most_probable(d: Diagnosis) -> np.ndarray:
@@ -28,17 +29,21 @@ def improved_case(d: Diagnosis) -> Case:
     """Case that simulates the model with the smallest error on left-out levels.
 
     Of named effects, parameters and calibration are the most probable values of the verdict alone: no average over
-    explanations or change points, and no error of form. A discrepancy is a table beside the calibrated base model. The
-    recording is kept, because inputs are scaled by it.
+    explanations or change points, and no error of form. A discrepancy is a found law, or a table beside the calibrated
+    base model. The recording is kept, because inputs are scaled by it.
     """
     verdict, problem, z = d.posterior.verdict, d.search.problem, d.search.null_fit.z
     fitted: dict[str, dict[str, float]] = {}
     if d.handed_on == EFFECTS or verdict == NOTHING:
-        z, own = most_probable(d), problem.forward.catalogue
+        z, known = most_probable(d), problem.forward.catalogue
         fitted = {
-            effect: {p.name: values[p.name] for p in own[effect].parameters}
+            effect: {p.name: values[p.name] for p in known[effect].parameters}
             for effect, values in problem.parameters(verdict, z).items()
         }
+    laws = dict(d.given.laws)
+    if d.handed_on == LAW and d.law is not None:
+        z, own = d.law.refined[d.law.explanation].z, d.law.search.problem
+        fitted, laws = own.parameters(d.law.explanation, z), {**laws, d.law.effect.id: d.law.written}
     named = ", ".join(map(effect_words, fitted)) or "calibration alone"
     words = "a table of the missing part" if d.handed_on == TABLE else f"{named}, at the most probable parameters"
     given = d.given.system
@@ -51,7 +56,7 @@ def improved_case(d: Diagnosis) -> Case:
     if d.handed_on == TABLE:
         missing, update = d.tabulated.missing, {**update, "missing_part": FILE}
     system = given.model_copy(update=update)
-    laws = {name: law for name, law in d.given.laws.items() if name in system.effects}
+    laws = {name: law for name, law in laws.items() if name in system.effects}
     conditions = None if d.wanted is None else d.wanted.table
     return replace(d.given, system=system, conditions=conditions, laws=laws, hypotheses=(), missing=missing)
 

@@ -35,16 +35,24 @@ SCREENED_ROWS = 300
 """Cost limit. Readings on which terms are screened."""
 KEPT_OF_TARGET = 6
 """Cost limit. Terms of a quantity that get a second term."""
-FITTED = 8
-"""Cost limit. Laws fitted in full."""
-PROVED = 3
+FORMS_FITTED = {"single": 4, "powers": 1, "product": 2, "sum": 2}
+"""Cost limit. Forms of each kind that are fitted in full on the best quantity."""
+FORMS_ELSEWHERE = 2
+"""Cost limit. Fitted forms that are tried on every other quantity."""
+PROVED = 4
 """Cost limit. Laws refitted without each level."""
 FIT_GAIN = 8.0
 """Judgement. Least log evidence of a law over none: odds of 3000, because thousands of terms are tried."""
 PRODUCT_PRIOR, SUM_PRIOR = 0.5, 0.5
 """Judgement. Prior of a product, and of a sum of two terms, over a single term: half, like a further factor."""
+OTHER_SHAPES = 5
+"""Definition. Shapes of a term beside powers, which share half of the prior."""
 SAME_WITHIN = 3.0
 """Judgement. Difference in log evidence within which two laws cannot be told apart: odds of 20."""
+FAR_BEHIND = 8.0
+"""Judgement. Log evidence behind the best law from which a law is not considered: odds of 3000."""
+LISTED_BEHIND, RIVALS = 30.0, 8
+"""Judgement. Log evidence behind a law up to which rivals are listed, and their number: more are not read."""
 EQUIVALENT_WITHIN = 0.1
 """Judgement. Ratio less one of the errors on left-out levels of laws that cannot be told apart."""
 LEAST_GAIN = 0.9

@@ -12,7 +12,7 @@ from mixedlub.case.simulation import conditions_of
 from mixedlub.case.validity import judge_rows
 from mixedlub.chain.priors import Prior
 from mixedlub.diagnosis.assessment.prediction import Refined
-from mixedlub.diagnosis.diagnose import CALIBRATION, TABLE, Diagnosis
+from mixedlub.diagnosis.diagnose import TABLE, Diagnosis
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING
 from mixedlub.diagnosis.report.text.location_text import located
 from mixedlub.diagnosis.report.text.next_test_text import beyond
@@ -57,6 +57,7 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
             "split": d.heldout.split,
             "folds": d.heldout.folds,
         },
+        "law": law_record(d),
         "improved": improved_record(d),
         "outlier_runs": d.outlier_runs,
         "next_tests": [
@@ -75,10 +76,43 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
     }
 
 
+def law_record(d: Diagnosis) -> dict[str, Any] | None:
+    """The law found for a mismatch without a name, with its rivals; None without a law that predicts left-out levels
+    better than calibration."""
+    law = d.law
+    if law is None:
+        return None
+    refined = law.refined[law.explanation]
+    index, parameters = law.search.problem.calibration_size, []
+    for e in law.search.problem.effects(law.explanation):
+        for p in e.parameters:
+            if e.id == law.effect.id:
+                value, low, high = interval(p.prior, refined.z[index], refined.spread[index])
+                parameters.append({"name": p.name, "unit": p.unit, "value": value, "low90": low, "high90": high})
+            index += 1
+    rivals = [
+        {
+            **{key: rival.data[key] for key in ("stage", "acts_on", "form", "expression")},
+            "log_evidence_behind": rival.behind,
+            "heldout_after": rival.heldout,
+            "equivalent": rival.equivalent,
+        }
+        for rival in law.rivals
+    ]
+    return {
+        **{key: law.data[key] for key in ("stage", "acts_on", "form", "expression")},
+        "parameters": parameters,
+        "range": {name: list(ends) for name, ends in law.ranges.items()},
+        "heldout_before": law.heldout.before,
+        "heldout_after": law.heldout.after,
+        "rivals": rivals,
+        "empirical": True,
+    }
+
+
 def improved_record(d: Diagnosis) -> dict[str, Any]:
     """The model in the folder improved, its error on left-out levels, and the errors of its table."""
-    error = d.heldout.before if d.handed_on == CALIBRATION else d.heldout.after
-    record: dict[str, Any] = {"model": d.handed_on, "heldout": error}
+    record: dict[str, Any] = {"model": d.handed_on, "heldout": d.handed_on_error}
     if d.handed_on == TABLE:
         record |= {"table_rms_error": d.tabulated.rms_error, "table_largest_error": d.tabulated.largest_error}
     return record

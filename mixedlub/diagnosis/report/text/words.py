@@ -12,7 +12,8 @@ from mixedlub.chain.plain_text import plain_equation
 from mixedlub.diagnosis.assessment.identifiability import confusion
 from mixedlub.diagnosis.assessment.power_law import Absorbed, DescribedDiscrepancy
 from mixedlub.diagnosis.diagnose import CALIBRATION as BASE_ALONE
-from mixedlub.diagnosis.diagnose import TABLE, Diagnosis
+from mixedlub.diagnosis.diagnose import LAW, TABLE, Diagnosis
+from mixedlub.diagnosis.discovery.files import FILE as LAW_FILE
 from mixedlub.diagnosis.discrepancy.modulated import ADDITIVE, READING
 from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.labels import (
@@ -24,6 +25,7 @@ from mixedlub.diagnosis.labels import (
     words_of,
 )
 from mixedlub.diagnosis.report.text.alternatives import AS_IF_NOTHING, alternatives
+from mixedlub.diagnosis.report.text.found_law import found_law
 from mixedlub.diagnosis.report.text.headline import doubts, headline, lesser, p_words, probabilities, probability_words
 from mixedlub.diagnosis.report.text.hypotheses import hypotheses
 from mixedlub.diagnosis.report.text.location_text import where
@@ -210,17 +212,17 @@ def _discrepancy(d: Diagnosis, discrepancy: DescribedDiscrepancy) -> Section:
         )
         if worse:
             sentences.append(NATS)
-    if law is None:
+    if law is None and d.law is None:
         sentences.append(
             "No simple law: no power law of conditions or film quantities predicts levels it was not fitted to."
         )
-    else:
+    elif law is not None:
         sentences.append(
             f"Shortest form found, empirical (a description, not physics): {law.text}. On whole levels left out, of "
             f"one condition after another, the error falls from {law.heldout_before:.2f} to {law.heldout_after:.2f} "
             "sigma."
         )
-    return Section(UNNAMED, tuple(sentences))
+    return Section(UNNAMED, (*sentences, *found_law(d)))
 
 
 def distinguishable(stages: Sequence[Absorbed]) -> bool:
@@ -270,6 +272,11 @@ def _improved(d: Diagnosis) -> tuple[str, ...]:
             f"{error:.2g} sigma (rms). It holds inside the recorded range only. Rows outside say so in their column "
             "validity; they keep the value at the end of the range, as a jump there would be an invention, and rows "
             "with surfaces that were not recorded have the calibrated base model.",
+        )
+    if d.handed_on == LAW:
+        return (
+            f"The folder improved is the case with the law found, {LAW_FILE}, at its most probable parameters. {run} "
+            "It is empirical: outside the range of the file, the column validity says so.",
         )
     if d.handed_on == BASE_ALONE:
         return (f"The folder improved is the calibrated base model alone. {run}",)
