@@ -15,9 +15,9 @@ from mixedlub.diagnosis.settings.discovery import (
     FEW_POWERS,
     LARGEST_LOG,
     LEAST_LEVELS_OF_PLACE,
-    PEAK_WIDTHS,
     PLACES,
     POWERS,
+    RESONANCE_WIDTHS,
     STEP_WIDTHS,
     WIDTH_MEDIAN,
     WIDTH_SPREAD,
@@ -207,7 +207,7 @@ def _local(v: Variable, places: np.ndarray) -> Iterator[Term]:
     for b in places:
         off = np.log(x / b) if v.positive else x - b
         text = f"log({name}/<b>)" if v.positive else f"({v.text}-<b>)"
-        for shape, widths in (("step", STEP_WIDTHS), ("resonance", PEAK_WIDTHS)):
+        for shape, widths in (("step", STEP_WIDTHS), ("resonance", RESONANCE_WIDTHS)):
             for share in widths:
                 w = share * v.span
                 if shape == "step":

@@ -11,7 +11,7 @@ FEW_PLACES = 5
 """Cost limit. Places of a step or a resonance in a product."""
 STEP_WIDTHS = (0.03, 0.15)
 """Grid. Widths of a step as a share of the range, before they are fitted."""
-PEAK_WIDTHS = (0.1, 0.2, 0.35)
+RESONANCE_WIDTHS = (0.1, 0.2, 0.35)
 """Grid. Widths of a resonance as a share of the range, before they are fitted."""
 LEAST_LEVELS_OF_PLACE = 4
 """Judgement. Levels of a condition from which a place along it can be told."""
