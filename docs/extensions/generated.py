@@ -88,6 +88,7 @@ def pieces() -> dict[str, str]:
         "part_laws": _part_laws(),
         "presets": _presets(),
         "evaluations": _evaluations(),
+        "law_keys": _file_keys("mixedlub.own_laws.file", "LawFile"),
         "ehl_keys": _file_keys("mixedlub.ehl.file", "EhlFile"),
         "ehl_oil_keys": _file_keys("mixedlub.ehl.oil.file", "OilFile"),
         "api": _api(),

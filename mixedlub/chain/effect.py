@@ -196,7 +196,7 @@ def _ranges(ranges: Ranges) -> str:
 
 
 def _letter(quantity: str) -> str:
-    symbol = GLOSSARY[quantity].symbol
+    symbol = GLOSSARY[quantity].symbol if quantity in GLOSSARY else "-"
     return "" if symbol == "-" else plain_symbol(symbol)
 
 

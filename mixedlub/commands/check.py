@@ -116,6 +116,8 @@ def _known(case: Case, forward: Forward | None) -> Iterator[str]:
     """Effects and calibration named by the case."""
     for effect, values in ({} if forward is None else forward.known.values).items():
         yield f"Part of the base model here: {effect.replace('_', ' ')} ({_named(values)})."
+    for name in case.hypotheses:
+        yield f"Your hypothesis beside the catalogue: {name.replace('_', ' ')} ({case.laws[name].summary})"
     if case.system.calibration:
         yield f"Simulated at the calibration {_named(case.system.calibration)}."
 

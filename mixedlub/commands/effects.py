@@ -13,7 +13,10 @@ EXAMPLE = "mixedlub effects inlet_shear_heating"
 
 
 def command(
-    effect: Annotated[str | None, typer.Argument(metavar="ID", help="One effect; all of them when left out.")] = None,
+    effect: Annotated[
+        str | None,
+        typer.Argument(metavar="ID", help="One effect, or the file of a law of yours; all effects when left out."),
+    ] = None,
 ) -> None:
     """The catalogue of effects, or one of them in full.
 

@@ -17,8 +17,8 @@ def command(
         str | None,
         typer.Argument(
             metavar="KIND",
-            help="One kind, a file (`study`, `factors`, `gear`, `efficiency`, `ehl`), `friction-laws`, or a method of "
-            "`evaluate`; all kinds when left out.",
+            help="One kind, a file (`study`, `factors`, `gear`, `efficiency`, `ehl`, `law`), `friction-laws`, or "
+            "a method of `evaluate`; all kinds when left out.",
         ),
     ] = None,
 ) -> None:

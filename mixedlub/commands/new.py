@@ -1,4 +1,4 @@
-"""`mixedlub new`: templates of a study, factors, a case, contacts, gears, a gearbox, an evaluation; each runs."""
+"""`mixedlub new`: templates of a study, factors, a case, contacts, gears, a gearbox, a law or an evaluation."""
 
 from __future__ import annotations
 
@@ -21,8 +21,9 @@ NAME = "new"
 EXAMPLE = "mixedlub new study --out out/my_study"
 
 STUDY, FACTORS, CASE, EHL, GEAR, EFFICIENCY = "study", "factors", "case", "ehl", "gear", "efficiency"
+LAW = "law"
 FRICTION_LAWS = "friction-laws"
-TEMPLATES = (STUDY, FACTORS, CASE, EHL, GEAR, EFFICIENCY, FRICTION_LAWS)
+TEMPLATES = (STUDY, FACTORS, CASE, EHL, GEAR, EFFICIENCY, FRICTION_LAWS, LAW)
 KIND = "gear_pair"
 """Default kind of a case."""
 ROWS = 40
@@ -44,7 +45,7 @@ def command(
         str,
         typer.Argument(
             metavar="WHAT",
-            help="study, factors, case, ehl, gear, efficiency, friction-laws, or a method of `mixedlub evaluate`.",
+            help="study, factors, case, ehl, gear, efficiency, friction-laws, law, or a method of `mixedlub evaluate`.",
         ),
     ],
     kind: Annotated[
@@ -54,7 +55,7 @@ def command(
         Path | None, typer.Option(metavar="DIR", parser=named_folder, help="Folder to make; default out/new/WHAT.")
     ] = None,
 ) -> None:
-    """A study, its factors, a case, line contacts (ehl), gears, a gearbox (efficiency) or an evaluation to start from.
+    """A study, factors, a case, line contacts (ehl), gears, a gearbox (efficiency), a law, an evaluation to start from.
 
     A template with the values of an example rig: optional keys are comments with their meaning. It runs unchanged; the
     readings of a case are synthetic, from the base model.
@@ -74,6 +75,7 @@ def command(
         GEAR: gear_files,
         EFFICIENCY: efficiency_files,
         FRICTION_LAWS: friction_law_files,
+        LAW: law_files,
     }
     if what in makers:
         files = makers[what]()
@@ -96,6 +98,7 @@ def command(
             folder / "study.toml",
             (f"friction-laws --coefficients {folder / 'coefficients.toml'} --study",),
         ),
+        LAW: (folder / "law.toml", ("effects",)),
         CASE: (folder, ("check", "diagnose")),
     }.get(what, (folder / f"{what}.toml", (f"evaluate {what}",)))
     echo(f"{' and '.join(files)} in {folder}, with the numbers of an example: put your own in their place, then")
@@ -157,6 +160,13 @@ def evaluation_files(name: str) -> dict[str, str]:
     text = "\n".join(_lines(one.file, one.example, wanted)) + "\n"
     recorded = {path.name: path.read_text(encoding="utf-8") for path in sorted(one.folder.glob("*.csv"))}
     return {f"{name}.toml": text, **recorded}
+
+
+def law_files() -> dict[str, str]:
+    """A law of the user."""
+    from mixedlub.own_laws import EXAMPLE as LAW_FILE
+
+    return {"law.toml": LAW_FILE.read_text(encoding="utf-8")}
 
 
 def efficiency_files() -> dict[str, str]:

@@ -42,7 +42,7 @@ def _call(node: Call, texts: list[str]) -> str:
         return f"-{_within(node.arguments[0], first, 2)}"
     if node.of == "*":
         one, other = (_within(n, t, 2) for n, t in zip(node.arguments, texts, strict=True))
-        return rf"{one}\,{other}"
+        return rf"{one}\cdot {other}" if other[0].isdigit() else rf"{one}\,{other}"
     if node.of in RANKS:
         right = _within(node.arguments[1], texts[1], 2 if node.of == "-" else 1)
         return f"{first} {node.of} {right}"
@@ -54,7 +54,7 @@ def _call(node: Call, texts: list[str]) -> str:
 
 
 def _within(node: Node, text: str, rank: int) -> str:
-    """Text of an argument, in brackets where it binds less than ``rank``."""
+    """Text of an argument, in brackets if its rank is below ``rank``."""
     return _brackets(text) if isinstance(node, Call) and RANKS.get(node.of, rank) < rank else text
 
 

@@ -82,7 +82,7 @@ Node = Number | Name | Call
 
 
 def _bracketed(node: Node, rank: int) -> str:
-    """Text of a node, in brackets where it binds less than ``rank``."""
+    """Text of a node, in brackets if its rank is below ``rank``."""
     if isinstance(node, Number):
         own = OPERATORS["negative"][1] if str(node).startswith("-") else 3 if " " in str(node) else ATOM
     else:

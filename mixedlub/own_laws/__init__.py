@@ -8,11 +8,13 @@ from typing import Any, TypeVar
 
 from mixedlub.chain.effect import Effect
 from mixedlub.own_laws.law import FileLaw, as_hypothesis, law_of_text, read_law
-from mixedlub.own_laws.usable import check_usable
+from mixedlub.own_laws.usable import ABSENT, check_usable
 from mixedlub.schema.toml_file import named_file
 from profiles.errors import InputError
 
 Values = TypeVar("Values")
+EXAMPLE = Path(__file__).with_name("example.toml")
+"""A law file that runs."""
 ENDING = ".toml"
 """End of a path, which tells it from the id of an effect."""
 
@@ -20,7 +22,7 @@ ENDING = ".toml"
 def by_id(
     section: Mapping[str, Values], folder: Path, columns: Collection[str] = (), where: str = "effects"
 ) -> tuple[dict[str, Values], dict[str, Effect]]:
-    """A section ``[effects]`` whose paths of law files are replaced by their ids, and these laws by id."""
+    """A section ``[effects]`` with ids in place of the paths of law files, and these laws by id."""
     named, laws = dict(section), []
     for key in section:
         if key.endswith(ENDING):
@@ -52,7 +54,7 @@ def path_of(law: Effect) -> Path:
 
 
 def text_of(law: Effect) -> str:
-    """Content of the file of a law of the user, as it was read."""
+    """Content of the file of a law of the user."""
     assert isinstance(law.law, FileLaw)
     return law.law.text
 
@@ -69,6 +71,9 @@ def columns_read(laws: Iterable[Effect], rows: Mapping[str, Any]) -> dict[str, A
 
 
 __all__ = [
+    "ABSENT",
+    "ENDING",
+    "EXAMPLE",
     "FileLaw",
     "as_hypothesis",
     "by_id",

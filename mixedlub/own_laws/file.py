@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from keyword import iskeyword
-from typing import Annotated, Literal
+from typing import Literal
 
-from pydantic import AfterValidator, field_validator, model_validator
+from pydantic import field_validator, model_validator
 
 from mixedlub.chain.effect import STAGES
 from mixedlub.chain.priors import LogNormal, LogUniform, Normal, Prior, Uniform
@@ -22,16 +22,6 @@ FORMS = {
     "add": "the expression is added to the quantity, in SI",
     "replace": "the expression, in SI, takes the place of the quantity",
 }
-
-
-def _known_stage(name: str) -> str:
-    return one_of(name, STAGES)
-
-
-def _own_name(name: str) -> str:
-    if not re.fullmatch(r"[a-z][a-z0-9_]*", name) or name in RESERVED:
-        raise ValueError("must be a word of small letters, digits and underscores, other than none and unknown")
-    return name
 
 
 class LawPrior(Section):
@@ -91,9 +81,9 @@ class LawParameter(Section):
 class LawFile(Section):
     """One law of the user."""
 
-    id: Annotated[str, AfterValidator(_own_name)] = key("name of the law", example="film_of_load")
+    id: str = key("name of the law", example="film_of_load")
     description: str = key("one sentence for pages", "", example="The film falls with load more than the base has it.")
-    stage: Annotated[str, AfterValidator(_known_stage)] = key(f"part of the model: {', '.join(STAGES)}", example="film")
+    stage: str = key(f"part of the model: {', '.join(STAGES)}", example="film")
     acts_on: str = key("quantity of the glossary that the law changes, or reading", example="film_thickness")
     form: Literal["factor", "add", "replace"] = key("how it changes the quantity", example="factor", values=FORMS)
     expression: str = key(
@@ -108,6 +98,18 @@ class LawFile(Section):
         example={"load_N": [200.0, 1500.0]},
     )
     separated_by: str = key("test that shows the law and nothing else", "")
+
+    @field_validator("id")
+    @classmethod
+    def _is_word(cls, name: str) -> str:
+        if not re.fullmatch(r"[a-z][a-z0-9_]*", name) or name in RESERVED:
+            raise ValueError("must be a word of small letters, digits and underscores, other than none and unknown")
+        return name
+
+    @field_validator("stage")
+    @classmethod
+    def _is_known(cls, name: str) -> str:
+        return one_of(name, STAGES)
 
     @field_validator("parameters")
     @classmethod

@@ -25,7 +25,7 @@ from mixedlub.schema.units import ENDINGS, dimension, ending_of, tidy, to_si, wi
 from profiles.errors import InputError, nearest
 
 IN_OTHER_WORDS = {"speed": "pinion_speed"}
-"""Columns whose quantity has another name in the glossary, without their unit."""
+"""Columns, without unit, and the name of their quantity in the glossary."""
 VERBS = {"factor": "times", "add": "plus", "replace": "is"}
 _GREEK = re.compile("|".join(rf"(?<![A-Za-z]){name}(?![A-Za-z])" for name in GREEK))
 

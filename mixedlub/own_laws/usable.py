@@ -1,8 +1,9 @@
-"""Checks of a law of the user in a model: what it reads is there in time, and it has finite values."""
+"""Checks of a law of the user in a model: its quantities exist in time, and its values are finite."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from inspect import signature
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,8 @@ from mixedlub.chain.ranges import beyond
 from mixedlub.own_laws.law import FileLaw
 from profiles.errors import InputError, nearest
 
+ABSENT = "has no such quantity"
+"""Part of the message on a quantity that a model lacks."""
 TRIED = (-2.0, 0.0, 2.0)
 """Standard deviations from the prior median at which each parameter is tried."""
 
@@ -28,18 +31,17 @@ def check_usable(law: Effect, chain: Chain, inputs: Mapping[str, Any], want: str
     for name in own.arguments:
         if name not in made:
             key = "acts_on" if name in law.acts_on else "expression"
-            rule = f"the model of a {model_of} has no such quantity; {nearest(name, made)}"
+            rule = f"the model of a {model_of} {ABSENT}; {nearest(name, made)}"
             raise InputError(rule, where=f"{where}: {key}", value=name)
     for name in law.valid:
         if name not in made:
-            rule = f"the model of a {model_of} has no such quantity; {nearest(name, made)}"
+            rule = f"the model of a {model_of} {ABSENT}; {nearest(name, made)}"
             raise InputError(rule, where=f"{where}: range", value=name)
     changed = law.acts_on[0]
-    read = [name for name in law.reads if name in made]
     try:
         model = Model(chain, tuple(inputs), (want,), (law,))
     except ChainError:
-        rule = f"is cyclic: of {', '.join(read)}, a part exists only after {changed} was used, and depends on it"
+        rule = f"is cyclic: {', '.join(_late(law, chain))} exists only after {changed} is used"
         raise InputError(rule, where=f"{where}: expression", value=own.file.expression) from None
     if not any(step.effect == law.id for step in model.steps):
         rule = f"the {want.replace('_', ' ')} of a {model_of} does not depend on it"
@@ -61,6 +63,12 @@ def check_usable(law: Effect, chain: Chain, inputs: Mapping[str, Any], want: str
         nulls = ", ".join(f"{p.name} = {p.null:g}" for p in law.parameters if p.null is not None)
         rule = f"must leave {changed} as it is at {nulls}: correct null, or leave it out"
         raise InputError(rule, where=f"{where}: parameters", value=own.file.expression)
+
+
+def _late(law: Effect, chain: Chain) -> list[str]:
+    """Quantities that a law reads and that exist only after the quantity it changes is used."""
+    used = next(i for i, (_, step) in enumerate(chain) if law.acts_on[0] in signature(step).parameters)
+    return [name for name, _ in chain[used:] if name in law.reads]
 
 
 def _tried(law: Effect) -> list[dict[str, float]]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 
@@ -15,7 +16,9 @@ from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Model
 from mixedlub.chain.plain_text import entry
 from mixedlub.effects import catalogue, find
-from mixedlub.kinds import KINDS
+from mixedlub.kinds import KINDS, kind
+from mixedlub.own_laws import ABSENT, ENDING, check_usable, columns_read, read_law
+from profiles.errors import InputError
 
 RIGS = KINDS
 """Standard rigs by kind, in the order of the pages."""
@@ -150,8 +153,32 @@ def lookalikes(effect_id: str, rig: str) -> dict[str, float]:
 
 
 def effects_text(effect_id: str | None = None) -> str:
-    """Page of an effect, or table of all effects."""
+    """Page of an effect, or of the law in a file, or table of all effects."""
+    if effect_id is not None and effect_id.endswith(ENDING):
+        return _own_page(Path(effect_id))
     return _table() if effect_id is None else _page(find((effect_id,))[0])
+
+
+def _own_page(path: Path) -> str:
+    """Page of the law in a file, with its change of the readings of each standard rig on which it can act."""
+    law = read_law(path, {c.name for rig in RIGS for c in kind(rig).columns if c.dtype == "number"})
+    lines, unable = ["on the standard rig of each kind of recording, at the stated values"], []
+    for rig in RIGS:
+        forward = reference_rigs.forward(rig)
+        inputs = {**forward.inputs, **columns_read([law], forward.table.columns)}
+        try:
+            check_usable(law, forward.chain, inputs, "reading", rig.replace("_", " "))
+        except InputError as error:
+            unable.append((rig, error))
+            continue
+        base, changed = (Model(forward.chain, tuple(inputs), ("reading",), own) for own in ((), (law,)))
+        change = changed(inputs, {law.id: law.law_values()})["reading"] / base(inputs)["reading"] - 1.0
+        low, middle, high = (f"{100 * v:.3g}" for v in np.quantile(change, (0.0, 0.5, 1.0)))
+        lines.append(entry(f"  {rig}", f"{low} to {high} % of the reading, half of them below {middle} %", _RIG_INDENT))
+    if len(unable) == len(RIGS):
+        raise max((error for _, error in unable), key=lambda error: ABSENT not in error.rule)
+    named = ", ".join(rig for rig, _ in unable)
+    return "\n".join([law.page(), "", *lines, *([entry("  cannot act", f"on {named}", _RIG_INDENT)] if named else [])])
 
 
 def _table() -> str:

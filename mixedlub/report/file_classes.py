@@ -14,7 +14,9 @@ _CLASSES = {
     "gear": "mixedlub.gear.analysis.file:GearAnalysisFile",
     "efficiency": "mixedlub.efficiency.file:EfficiencyFile",
     "ehl": "mixedlub.ehl.file:EhlFile",
+    "law": "mixedlub.own_laws.file:LawFile",
 }
+_TITLES = {STUDY: "a study file", "law": "the file of a law of your own"}
 FILES = tuple(_CLASSES)
 """Files other than cases, by command."""
 EVERY_CASE = ("", "uncertainty", "recording")
@@ -28,3 +30,12 @@ def file_class(name: str) -> type[Section]:
     module, _, own = _CLASSES[name].partition(":")
     found: type[Section] = getattr(import_module(module), own)
     return found
+
+
+def file_title(name: str) -> str:
+    """A file in words, by its command.
+
+    >>> file_title("gear"), file_title("law")
+    ('a file of `mixedlub gear`', 'the file of a law of your own')
+    """
+    return _TITLES.get(name, f"a file of `mixedlub {name}`")

@@ -17,7 +17,7 @@ from mixedlub.chain.plain_text import entry
 from mixedlub.evaluate import EVALUATIONS
 from mixedlub.friction import catalogue
 from mixedlub.kinds import KINDS, Kind, kind
-from mixedlub.report.file_classes import EVERY_CASE, FILES, STUDY, file_class
+from mixedlub.report.file_classes import EVERY_CASE, FILES, file_class, file_title
 from mixedlub.schema.section import FileTable, Key, Section, plain, tables
 from mixedlub.schema.system_file import System
 from mixedlub.schema.table import BOOKKEEPING, RUN, Column, check_column, sd_column
@@ -39,7 +39,7 @@ Row = tuple[str, ...]
 def kinds_text(name: str | None = None) -> str:
     """Format of a kind of case, of all kinds, of a study file, or of a file of another command."""
     if name in FILES:
-        return "\n".join(_file("a study file" if name == STUDY else f"a file of `mixedlub {name}`", file_class(name)))
+        return "\n".join(_file(file_title(name), file_class(name)))
     if name == FRICTION_LAWS:
         return "\n".join(_friction_laws())
     if name is not None and name not in KINDS:
@@ -50,7 +50,7 @@ def kinds_text(name: str | None = None) -> str:
     chosen = [kind(n) for n in (KINDS if name is None else (name,))]
     taken = {*EVERY_CASE, *(section for k in chosen for section in (*k.sections, *k.uses))}
     lines = [] if name else [f"{len(KINDS)} kinds of case. `mixedlub kinds KIND` shows one, with the keys it takes;"]
-    lines += [] if name else ["`mixedlub kinds study`, `factors`, `gear`, `efficiency`, `ehl`: keys of a file."]
+    lines += [] if name else ["`mixedlub kinds study`, `factors`, `gear`, `efficiency`, `ehl`, `law`: files."]
     for k in chosen:
         lines += ["", *_kind(k)]
     lines += ["", "columns of every kind (conditions.csv has all but the reading)", *aligned(common_rows())]

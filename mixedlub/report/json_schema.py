@@ -9,7 +9,7 @@ from typing import Any
 
 from mixedlub.evaluate import EVALUATIONS
 from mixedlub.kinds import KINDS, kind
-from mixedlub.report.file_classes import EVERY_CASE, FILES, file_class
+from mixedlub.report.file_classes import EVERY_CASE, FILES, file_class, file_title
 from mixedlub.schema.section import FileTable, Key, Section, section_in
 from mixedlub.schema.system_file import System
 from profiles.errors import InputError, nearest
@@ -39,7 +39,7 @@ def json_schema(name: str) -> dict[str, Any]:
         for key in set(nested) - taken:
             del schema["properties"][key]
         schema["properties"]["kind"] = {**schema["properties"]["kind"], "const": name}
-    title = f"a case of kind {name}" if name in KINDS else f"the file of mixedlub {name}"
+    title = f"a case of kind {name}" if name in KINDS else file_title(name).replace("`", "")
     return {"$schema": DIALECT, **schema, "title": title, "$defs": _used(schema, definitions)}
 
 

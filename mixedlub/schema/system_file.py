@@ -288,7 +288,8 @@ class System(RigFile):
     recording: Recording = key("what was read, and how well")
     effects: dict[str, dict[str, NumberOrName]] = key(
         "EFFECT = { PARAMETER = VALUE }: physics that the rig is known to have, part of the base model; law = NAME: "
-        "a published law; parameters left out: as the first published law has them; PARAMETER_sd: standard deviation",
+        "a published law; parameters left out: as the first published law has them; PARAMETER_sd: standard deviation; "
+        "the path of a law file may take the place of EFFECT",
         {},
         example={"sensor_gain": {"gain": 0.01, "gain_sd": 0.005}},
     )

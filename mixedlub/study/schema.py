@@ -242,7 +242,8 @@ class StudyFile(RigFile):
     safety: Safety | None = key("limits against scuffing and micropitting", None)
     effects: dict[str, dict[str, NumberOrName]] = key(
         "EFFECT = { PARAMETER = VALUE }: physics beyond the base model, as `mixedlub effects` lists it; "
-        "law = NAME: a published law; parameters left out: as the first published law has them",
+        "law = NAME: a published law; parameters left out: as the first published law has them; "
+        "the path of a law file may take the place of EFFECT",
         {},
         example={"churning": {"law": "Changenet and Velex"}},
     )

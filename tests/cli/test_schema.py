@@ -15,6 +15,7 @@ from mixedlub.commands.new import (
     ehl_files,
     factor_files,
     gear_files,
+    law_files,
     study_files,
 )
 from mixedlub.evaluate import EVALUATIONS
@@ -29,6 +30,7 @@ MAKERS = {
     "gear": gear_files,
     "efficiency": efficiency_files,
     "ehl": ehl_files,
+    "law": law_files,
 }
 
 
