@@ -106,16 +106,10 @@ class Answer:
 
     @property
     def improved(self) -> Case:
-        """The case with the verdict's effects and calibration at their most probable values, for `ml.simulate`.
-
-        Raises ``profiles.errors.InputError`` if the missing part has no law.
+        """The case with the answer in its model, for `ml.simulate`: effects and calibration at their most probable
+        values, a table of a missing part without law, or calibration alone where it predicts left-out levels better.
         """
-        case = improved_case(self.diagnosis)
-        if case is None:
-            raise InputError(
-                "the missing part has no law, so no improved model can be run", where=self.diagnosis.case.name
-            )
-        return case
+        return improved_case(self.diagnosis)
 
     def summary(self) -> str:
         """The report in plain words."""

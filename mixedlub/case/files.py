@@ -6,7 +6,8 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from mixedlub.case.folder import HYPOTHESES, Case
-from mixedlub.own_laws import text_of
+from mixedlub.case.missing_part import FILE as MISSING_PART
+from mixedlub.own_laws import path_of, text_of
 from mixedlub.schema.surface_file import SURFACE_FILES
 from mixedlub.schema.table import Table
 from mixedlub.schema.toml_file import named_file, to_toml
@@ -46,12 +47,18 @@ def case_files(case: Case) -> dict[str, str | bytes]:
             surface[key] = files[0] if isinstance(given, str) else files
     carried |= law_files(case, system)
     tables = {f"{name}.csv": _csv(getattr(case, name)) for name in TABLES if getattr(case, name) is not None}
+    if case.missing is not None:
+        system["missing_part"] = MISSING_PART
+        tables[MISSING_PART] = _csv(case.missing.table)
     return {"system.toml": to_toml(system), **tables, **carried}
 
 
 def law_files(case: Case, system: dict[str, Any]) -> dict[str, bytes]:
     """Law files of a case by path; ``[effects]`` of the written system then names these paths."""
     places = {name: f"{HYPOTHESES if name in case.hypotheses else LAWS}/{name}.toml" for name in case.laws}
+    # A law beside the case, as one that a diagnosis found, stays there.
+    beside = {name: path_of(law) for name, law in case.laws.items()}
+    places |= {name: path.name for name, path in beside.items() if path == Path(path.name)}
     if places:
         system["effects"] = {places.get(name, name): own for name, own in system.get("effects", {}).items()}
     return {path: text_of(case.laws[name]).encode() for name, path in places.items()}
@@ -74,5 +81,6 @@ def _carry(carried: dict[str, bytes], folder: Path, name: str, key: str) -> str:
 def _csv(table: Table) -> str:
     import pandas as pd
 
-    columns: dict[str, Any] = {"run": table["run"], **table.columns}
+    first = {"run": table["run"]} if "run" in table else {}
+    columns: dict[str, Any] = {**first, **table.columns}
     return str(pd.DataFrame(columns).to_csv(index=False, lineterminator="\n"))

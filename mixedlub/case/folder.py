@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from mixedlub.case.import_file import read_import_file
+from mixedlub.case.missing_part import MissingPart, table_columns
 from mixedlub.case.reach import Reach, reach_of
 from mixedlub.chain.effect import Effect
 from mixedlub.full_base.words import WORDS
@@ -75,6 +76,7 @@ class Case:
     laws: Mapping[str, Effect] = field(default_factory=dict)
     hypotheses: tuple[str, ...] = ()
     reach: Reach = field(default_factory=Reach)
+    missing: MissingPart | None = None
 
     def __repr__(self) -> str:
         tables = {"recordings": self.recordings, "conditions": self.conditions}
@@ -239,6 +241,7 @@ def _checked(
         conditions = None if conditions is None else _with_filled_sds(conditions, f"{quantity}_sd")
         if conditions is not None and recordings is not None:
             check_rows(found, system, folder, conditions, recordings)
+        missing = _missing_part(folder, system, found)
     effects, laws = by_id(system.effects, folder, _numbers(found))
     rig = Rig(system, folder, found.unread_of_oil)
     if system.base != "formulas":
@@ -256,6 +259,7 @@ def _checked(
         tuple(notes),
         laws,
         reach=reach,
+        missing=missing,
     )
     return with_hypotheses(case, hypotheses)
 
@@ -271,6 +275,14 @@ def with_hypotheses(case: Case, paths: Sequence[str | Path]) -> Case:
 def _numbers(found: Kind) -> list[str]:
     """Columns of conditions that are numbers."""
     return [c.name for c in (*BOOKKEEPING, *found.columns) if c.dtype == "number"]
+
+
+def _missing_part(folder: Path, system: system_file.System, found: Kind) -> MissingPart | None:
+    """The table that the system names for the part that the model lacks."""
+    if system.missing_part is None:
+        return None
+    path = toml_file.named_file(folder, system.missing_part, "missing_part")
+    return MissingPart(read_table(path, table_columns(found), key=()), found.part_rigs).checked(str(path))
 
 
 def read_conditions(case: Case, path: Path) -> Table:

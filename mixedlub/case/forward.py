@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from operator import is_
 from types import MappingProxyType
@@ -13,6 +14,7 @@ import numpy as np
 
 from mixedlub.case.base import Base
 from mixedlub.case.folder import Case
+from mixedlub.case.missing_part import MissingPart, as_effect
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Chain, Model, Parameters, Record, available
 from mixedlub.chain.ranges import beyond
@@ -68,7 +70,7 @@ class Forward:
             if "sequence" in self.inputs:
                 self.inputs["ageing"] = ageing(recorded, self.inputs["sequence"])
             extra = case.kind.extra_calibration(case.system, recorded)
-        self.inputs |= columns_read(case.laws.values(), table.columns)
+            self.inputs |= columns_read(case.laws.values(), table.columns)
             formulas = case.kind.chain(case.system, table)
             self.base = self._based(formulas)
         self.notes = tuple(notes)
@@ -88,6 +90,8 @@ class Forward:
         self.known = known_effects(
             case.system.effects, case.kind.effect_kind, formulas, tuple(self.inputs), "reading", case.laws
         )
+        if case.missing is not None:
+            self._add(case.missing)
         self.uncertain_laws = tuple(
             e for e in self.catalogue.values() if any(p.base_sd for p in e.parameters) and self._offers(e)
         )
@@ -112,6 +116,22 @@ class Forward:
 
         tables = [t for t in (case.recordings, case.conditions) if t is not None] or [self.table]
         return full_base(case.kind, case.system, case.rig, tables, formulas, self.inputs)
+
+    def with_laws(self, case: Case) -> Forward:
+        """The same rows of a case that has further laws."""
+        found = copy(self)
+        found.case = case
+        found.inputs = {**self.inputs, **columns_read(case.laws.values(), self.table.columns)}
+        found.catalogue = MappingProxyType({**self.catalogue, **case.laws})
+        found._model = lru_cache(maxsize=1024)(found._build)
+        return found
+
+    def _add(self, missing: MissingPart) -> None:
+        """Make a table of the missing part an effect of the base model."""
+        effect = as_effect(missing.is_share)
+        unit = 1.0 if missing.is_share else self.scale
+        self.inputs[effect.reads[0]] = missing.at(self.table)[:, None] / unit
+        self.known = replace(self.known, effects=(*self.known.effects, effect))
 
     def _of_effect(self, place: tuple[str, str]) -> Calibration:
         """Calibration of a parameter with a standard deviation stated in the case."""

@@ -38,7 +38,8 @@ def simulated_tables(case: Case, at: Table | None = None) -> list[Table]:
     if not tables:
         rule = "has neither recordings.csv nor conditions.csv; name a table with --at"
         raise InputError(rule + other_recordings(case.folder), where=str(case.folder))
-    return [at_programme_end(case, table) for table in tables] if case.system.effects else tables
+    placed = case.system.effects or case.missing is not None
+    return [at_programme_end(case, table) for table in tables] if placed else tables
 
 
 def conditions_of(case: Case, table: Table) -> pd.DataFrame:

@@ -72,7 +72,10 @@ def judge_rows(
         state[real] = of_bearing_asperities(state[real], state["asperity_load_ratio"])
     where = _judged(inputs, state)
     count = len(forward.table)
-    reached = [(one, _of_rows(farthest_beyond(_points(state[one.quantity]), one.ends, where), count)) for one in limits]
+    found = [(one, _points(state[one.quantity]), where) for one in limits]
+    if forward.case.missing is not None:
+        found += [(one, values, np.ones(1, bool)) for one, values in forward.case.missing.reached(forward.table)]
+    reached = [(one, _of_rows(farthest_beyond(values, one.ends, at), count)) for one, values, at in found]
     return Judged(reached, count, forward.table.source)
 
 

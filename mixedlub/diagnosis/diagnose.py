@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
 from numbers import Real
 from pathlib import Path
 
@@ -36,14 +37,22 @@ from mixedlub.diagnosis.assessment.extrapolation import beyond_recorded
 from mixedlub.diagnosis.assessment.hypotheses import Hypothesis, weigh
 from mixedlub.diagnosis.assessment.location import Region, region, time_columns
 from mixedlub.diagnosis.assessment.mismatch_test import Mismatch, mismatch_against_null
-from mixedlub.diagnosis.assessment.model_averaging import Predicted, averaged, leaders, outlier_chances
+from mixedlub.diagnosis.assessment.model_averaging import (
+    Predicted,
+    averaged,
+    by_calibration,
+    leaders,
+    outlier_chances,
+)
 from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.assessment.prediction import Refined
 from mixedlub.diagnosis.assessment.published_laws import Contained, contained
 from mixedlub.diagnosis.assessment.step_evidence import mismatch_at_steps
+from mixedlub.diagnosis.assessment.tabulated import Tabulated, tabulated
 from mixedlub.diagnosis.assessment.validity import beyond_range, unpublished
 from mixedlub.diagnosis.assessment.verdict import judge
-from mixedlub.diagnosis.explanation import DISCREPANCY, Explanation
+from mixedlub.diagnosis.discovery.laws import FoundLaw, find_law
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.labels import effect_words
 from mixedlub.diagnosis.search.noise_selection import search_under_noise
 from mixedlub.diagnosis.search.search import Progress, Search
@@ -55,6 +64,9 @@ from mixedlub.schema.findings import Finding, collected, finding
 from mixedlub.schema.table import Table
 from mixedlub.schema.units import stated_units
 from profiles.errors import InputError
+
+CALIBRATION, EFFECTS, LAW, TABLE = "calibration", "effects", "law", "table"
+"""Models that an answer hands on."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,6 +96,7 @@ class Diagnosis:
     hypotheses: tuple[Hypothesis, ...] = ()
     campaign: Campaign | None = None
     faulty: Predicted | None = None
+    law: FoundLaw | None = None
 
     @property
     def readings(self) -> np.ndarray:
@@ -120,6 +133,47 @@ class Diagnosis:
         problem, p = self.search.problem, self.recorded
         base = problem.inverse(problem.transform(p.predicted) - p.mismatch_z * self.transformed_sd)
         return self.readings - base, p.predicted - base
+
+    @property
+    def handed_on(self) -> str:
+        """The model in `improved` and in the predictions: of the answer and calibration alone, the one that predicts
+        left-out levels best. A discrepancy is handed on as a law or as a table."""
+        verdict = self.posterior.verdict
+        errors = {CALIBRATION: self.heldout.before}
+        if verdict.is_discrepancy:
+            errors |= {} if self.law is None else {LAW: self.law.heldout.after}
+            errors |= {TABLE: self.heldout.after}
+        elif verdict != NOTHING:
+            errors |= {EFFECTS: self.heldout.after}
+        return min(errors, key=errors.__getitem__)
+
+    @property
+    def handed_on_error(self) -> float:
+        """Error on left-out levels of the model that is handed on."""
+        if self.handed_on == LAW and self.law is not None:
+            return self.law.heldout.after
+        return self.heldout.before if self.handed_on == CALIBRATION else self.heldout.after
+
+    def handed(self, p: Predicted) -> Predicted:
+        """Predictions by the model that is handed on; the mismatch remains that of the answer."""
+        if self.handed_on == LAW and self.law is not None:
+            law = self.law
+            with threadpool_limits(limits=1, user_api="blas"):
+                own = averaged(law.search, law.posterior, dict(law.refined), p.table)
+            # Beyond its range a power may explode, while the smooth discrepancy fades.
+            names = ("predicted", "low90", "high90")
+            inside = law.holds(p.table)
+            return replace(p, **{n: np.where(inside, getattr(own, n), getattr(p, n)) for n in names})
+        if self.handed_on == CALIBRATION and self.posterior.verdict != NOTHING:
+            return by_calibration(self.search, p, self.heldout.before)
+        return p
+
+    @cached_property
+    def tabulated(self) -> Tabulated:
+        """The missing part as a table over the recorded conditions."""
+        predict = partial(averaged, self.search, self.posterior, self.refined)
+        with threadpool_limits(limits=1, user_api="blas"):
+            return tabulated(self.search, self.recorded, predict)
 
     @property
     def outlier_runs(self) -> list[int]:
@@ -200,6 +254,7 @@ def _diagnosis_of(
         levels = LevelsOut.of(search)
         decided, heldout = judge(search, test, levels)
         hypotheses = weigh(search, decided, levels)
+        law = find_law(search, levels) if decided.verdict.is_discrepancy else None
     heldout = heldout.single_reading_units(search.full_screen.problem.n_per_effective)
     refined = leaders(search, decided)
     progress("predicting")
@@ -214,7 +269,8 @@ def _diagnosis_of(
     mismatch_region = region(rows, [*varied, *passing], np.where(outlier_chance > LIKELY, 0.0, recorded.mismatch_z))
     laws = contained(search, decided.verdict)
     batch = next_batch(search, decided, refined, columns, varied)
-    warnings += _cautions(search, decided, heldout, refined, recorded.predicted, outlier_chance > LIKELY)
+    shown = heldout if law is None or law.heldout.after > heldout.after else law.heldout
+    warnings += _cautions(search, decided, shown, refined, recorded.predicted, outlier_chance > LIKELY)
     if test.detected:
         at_base = search.problem.single_reading_units(search.null_fit.residual)
         warnings += mismatch_at_steps(rows, [c.name for c in columns], at_base)
@@ -238,6 +294,7 @@ def _diagnosis_of(
         noise_search.stated,
         hypotheses,
         faulty=left,
+        law=law,
     )
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from mixedlub.chain.effect import Effect
-from mixedlub.own_laws.law import FileLaw, as_hypothesis, read_law
+from mixedlub.own_laws.law import FileLaw, as_hypothesis, law_of_text, read_law
 from mixedlub.own_laws.usable import ABSENT, check_usable
 from mixedlub.schema.toml_file import named_file
 from profiles.errors import InputError
@@ -80,6 +80,7 @@ __all__ = [
     "check_usable",
     "columns_read",
     "distinct",
+    "law_of_text",
     "path_of",
     "read_law",
     "read_laws",

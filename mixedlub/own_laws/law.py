@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import re
+import tomllib
 from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -43,13 +44,14 @@ class FileLaw:
     def __init__(
         self,
         file: LawFile,
+        text: str,
         path: Path,
         expression: Expression,
         reads: Mapping[str, Read],
         units: Mapping[str, Read],
     ) -> None:
         self.file, self.path, self.expression, self.reads, self.units = file, path, expression, reads, units
-        self.text = path.read_text(encoding="utf-8-sig")
+        self.text = text
         self.arguments = tuple(dict.fromkeys((file.acts_on, *(read.argument for read in reads.values()))))
         kinds = inspect.Parameter
         self.__signature__ = inspect.Signature(
@@ -82,7 +84,16 @@ class FileLaw:
 
 def read_law(path: Path, columns: Collection[str] = ()) -> Effect:
     """The effect of a law file; ``columns``: further names of numbers that the recording has."""
-    file, where = parse_toml(LawFile, read_toml(path), str(path)), str(path)
+    return _law(parse_toml(LawFile, read_toml(path), str(path)), path.read_text(encoding="utf-8-sig"), path, columns)
+
+
+def law_of_text(text: str, path: Path, columns: Collection[str] = ()) -> Effect:
+    """The effect of the text of a law file that is not written yet."""
+    return _law(parse_toml(LawFile, tomllib.loads(text), str(path)), text, path, columns)
+
+
+def _law(file: LawFile, text: str, path: Path, columns: Collection[str]) -> Effect:
+    where = str(path)
     if file.id in catalogue():
         raise InputError("is the id of an effect of the catalogue; take another", where=f"{where}: id", value=file.id)
     if file.acts_on not in GLOSSARY:
@@ -98,7 +109,7 @@ def read_law(path: Path, columns: Collection[str] = ()) -> Effect:
             raise InputError("is not in the expression", where=f"{where}: parameters", value=name)
     reads = {name: found for name in expression.names if (found := _read(name, columns)) is not None}
     units = {name: _unit(p, f"{where}: parameters.{name}") for name, p in file.parameters.items()}
-    law = FileLaw(file, path, expression, reads, units)
+    law = FileLaw(file, text, path, expression, reads, units)
     return Effect(
         name=file.id,
         law=law,

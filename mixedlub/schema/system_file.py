@@ -388,6 +388,13 @@ class System(RigFile):
             raise ValueError(f"a case of kind {info.data.get('kind')!r} has columns of its own; leave the section out")
         return given
 
+    missing_part: str | None = key(
+        "table of what the model lacks over conditions, added to its readings within the range of the table",
+        None,
+        example="missing_part.csv",
+        alternative=True,
+    )
+
 
 with_ranges(System)
 

@@ -41,6 +41,7 @@ ROOMS = {
         "discrepancy",
         "search",
         "assessment",
+        "discovery",
         "diagnose",
         "campaign",
         "report",

@@ -15,15 +15,17 @@ import mixedlub as ml
 import profiles
 from mixedlub.api.diagnosis import Answer
 from mixedlub.case.files import case_files
-from mixedlub.case.folder import Case, read_case
+from mixedlub.case.folder import Case, conditions_for, read_case
 from mixedlub.case.forward import Forward
+from mixedlub.case.missing_part import ADDITION, SHARE, MissingPart
+from mixedlub.case.missing_part import OUTSIDE as MISSING_PART
 from mixedlub.case.simulation import simulate
 from mixedlub.cli import main
 from mixedlub.commands.new import case_files as template
 from mixedlub.diagnosis.assessment.prediction import NewRows
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case, diagnosis_of
 from mixedlub.diagnosis.report.files import write
-from mixedlub.diagnosis.report.improved import improved_case, improved_files, most_probable
+from mixedlub.diagnosis.report.improved import improved_files, most_probable
 from mixedlub.diagnosis.report.text.answer import as_json, verdict_fit
 from mixedlub.kinds import KINDS
 from mixedlub.schema.findings import codes, collected
@@ -111,20 +113,106 @@ def test_the_improved_case_follows_the_readings(named: Diagnosis) -> None:
     assert np.sqrt(np.mean(residual[kept] ** 2)) < 1.5
 
 
-def test_a_mismatch_without_law_has_no_improved_model(unnamed: Diagnosis) -> None:
-    assert improved_case(unnamed) is None
-    assert not improved_files(unnamed)
-    with pytest.raises(InputError, match="no law"):
-        _ = Answer(unnamed).improved
+def test_a_mismatch_without_law_is_a_table(teeth: Diagnosis, tmp_path: Path) -> None:
+    assert teeth.posterior.verdict.is_discrepancy
+    assert teeth.heldout.after < teeth.heldout.before
+    case = read_case(written(case_files(Answer(teeth).improved), tmp_path / "improved"))
+    off = (readings(case) - teeth.recorded.predicted) / teeth.recorded.sd
+    assert np.max(np.abs(off)) < 0.01
+    assert teeth.tabulated.largest_error < 0.01
+    assert case.missing is not None
+    assert (case.missing.table["missing_sd"] > 0.0).all()
 
 
-def test_an_earlier_improved_model_is_removed_where_there_is_none(
-    complete: Diagnosis, unnamed: Diagnosis, tmp_path: Path
+def test_outside_its_table_a_row_says_so_and_keeps_the_end(teeth: Diagnosis) -> None:
+    case = Answer(teeth).improved
+    rows = teeth.search.problem.rows
+    one = {n: v[:1] for n, v in rows.columns.items() if n not in ("run", teeth.case.quantity)}
+    at = {n: np.repeat(v, 4) for n, v in one.items()} | {"roll_angle_deg": np.array([16.0, 15.0, 14.0, 10.0])}
+    with collected() as said:
+        found = simulate(case, conditions_for(case, at))
+    outside = [MISSING_PART in text for text in found["validity"]]
+    assert outside == [False, True, True, True]
+    assert [text.startswith("not_quantitative") for text in found["validity"][:1]] == [True]  # of the base model
+    assert MISSING_PART in codes(said)
+    with collected():
+        plain = simulate(replace(case, missing=None), conditions_for(case, at))
+    added = (found[case.quantity] - plain[case.quantity]).to_numpy()
+    assert case.missing is not None
+    if not case.missing.is_share:
+        assert added[1:] == pytest.approx(added[0], rel=1e-9)
+
+
+def test_surfaces_outside_the_table_have_the_base_model(unnamed: Diagnosis) -> None:
+    grid = {"pinion_surface": np.array(["ground"]), "gear_surface": np.array(["ground"]), SHARE: np.array([0.5])}
+    case = replace(unnamed.given, missing=MissingPart(Table(grid)))
+    base = readings(unnamed.given)
+    known = unnamed.given.recordings["pinion_surface"] == "ground"
+    assert readings(case)[known] == pytest.approx(1.5 * base[known], rel=1e-12)
+    assert readings(case)[~known] == pytest.approx(base[~known], rel=1e-12)
+
+
+def test_a_table_is_linear_between_its_rows() -> None:
+    torque, speed = np.meshgrid([10.0, 20.0, 25.0], [100.0, 400.0, 1000.0], indexing="ij")
+    value = 1.0 + 0.2 * torque + np.log(speed) * (0.3 - 0.01 * torque)
+    grid = {"speed_rpm": speed.ravel(), ADDITION: value.ravel(), "torque_Nm": torque.ravel()}
+    part = MissingPart(Table({n: v[::-1] for n, v in grid.items()})).checked("missing_part.csv")
+    rng = np.random.default_rng(5)
+    at = {"torque_Nm": rng.uniform(10.0, 25.0, 50), "speed_rpm": rng.uniform(100.0, 1000.0, 50)}
+    expected = 1.0 + 0.2 * at["torque_Nm"] + np.log(at["speed_rpm"]) * (0.3 - 0.01 * at["torque_Nm"])
+    assert part.at(Table(at)) == pytest.approx(expected, rel=1e-12)
+
+
+def test_an_answer_worse_than_calibration_on_left_out_levels_is_not_handed_on(unnamed: Diagnosis) -> None:
+    assert unnamed.heldout.after > unnamed.heldout.before
+    answer = Answer(replace(unnamed, law=None))
+    found = answer.predictions
+    assert found["predicted"].to_numpy() == pytest.approx(found["calibrated"].to_numpy(), rel=1e-12)
+    inside = (unnamed.readings > found["low90"]) & (unnamed.readings < found["high90"])
+    assert inside.mean() >= 0.8
+    assert np.abs(found["mismatch_z"]).max() > 10.0
+    assert readings(answer.improved) == pytest.approx(found["calibrated"].to_numpy(), rel=1e-9)
+    assert answer.record["improved"] == {"model": "calibration", "heldout": unnamed.heldout.before}
+
+
+def test_the_files_of_an_earlier_improved_model_are_removed(
+    complete: Diagnosis, teeth: Diagnosis, tmp_path: Path
 ) -> None:
-    write(improved_files(complete), tmp_path)
+    write(improved_files(teeth), tmp_path)
     (tmp_path / "improved" / "own.csv").write_text("run\n")
-    write(improved_files(unnamed), tmp_path)
-    assert [path.name for path in (tmp_path / "improved").iterdir()] == ["own.csv"]
+    assert (tmp_path / "improved" / "missing_part.csv").exists()
+    write(improved_files(complete), tmp_path)
+    assert {path.name for path in (tmp_path / "improved").iterdir()} == {"own.csv", "recordings.csv", "system.toml"}
+
+
+def test_the_table_is_part_of_the_model_that_is_diagnosed(teeth: Diagnosis, excluded: tuple[str, ...]) -> None:
+    assert diagnosis_of(Answer(teeth).improved, exclude=excluded).posterior.verdict.ids == ("none",)
+
+
+WRONG_TABLES = {
+    "no values": ("torque_Nm\n100\n", "missing_share"),
+    "a combination without row": (
+        "torque_Nm,speed_rpm,missing_share\n50,500,0\n50,900,0\n90,500,0\n",
+        "4 combinations",
+    ),
+    "a combination twice": ("torque_Nm,missing_share\n50,0\n50,1\n", "1 combinations"),
+    "no conditions": ("missing_reading\n3\n", "combinations"),
+}
+
+
+@pytest.mark.parametrize("wrong", WRONG_TABLES)
+def test_a_wrong_table_of_the_missing_part_is_refused(
+    make_case: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str], wrong: str
+) -> None:
+    text, hint = WRONG_TABLES[wrong]
+    folder = make_case(tmp_path / "case", "gear_pair")
+    (folder / "lacking.csv").write_text(text, encoding="utf-8")
+    system = (folder / "system.toml").read_text(encoding="utf-8")
+    (folder / "system.toml").write_text('missing_part = "lacking.csv"\n' + system, encoding="utf-8")
+    assert main(["simulate", str(folder), "--out", str(tmp_path / "out")]) == 2
+    said = capsys.readouterr().err
+    assert hint in said
+    assert "lacking.csv" in said
 
 
 def test_the_improved_case_lacks_nothing(offset: Diagnosis, excluded: tuple[str, ...]) -> None:

@@ -140,7 +140,13 @@ def answer_warnings(
         )
         for level, share in outlier_levels(rows, wrong, y - predicted)
     ]
-    if verdict != NOTHING and not at_one_place and heldout.score < heldout.score_before:
+    if verdict != NOTHING and heldout.after > heldout.before:
+        text = (
+            f"calibration alone predicts left-out levels better than the answer ({heldout.before:.2f} against "
+            f"{heldout.after:.2f} sigma), so predictions and the improved model are of calibration alone"
+        )
+        warnings.append(finding("answer_not_handed_on", text))
+    elif verdict != NOTHING and not at_one_place and heldout.score < heldout.score_before:
         answer = "the unnamed mismatch" if verdict == DISCREPANCY else "the answer"
         text = (
             f"{answer} predicts left-out levels no better than calibration alone: outside the recorded conditions rely "

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -28,6 +28,18 @@ class Predicted:
     high90: np.ndarray
     mismatch_z: np.ndarray
     sd: np.ndarray
+
+
+def by_calibration(search: Search, p: Predicted, error: float) -> Predicted:
+    """The predictions by calibration alone, with the intervals of its ``error`` on left-out levels (in sd).
+
+    The mismatch remains that of the answer.
+    """
+    problem = search.problem
+    mean = problem.transform(p.calibrated)
+    sd = p.sd / np.abs(p.predicted) if problem.case.kind.logarithmic else p.sd
+    half = NINETY * max(error, 1.0) * sd
+    return replace(p, predicted=p.calibrated, low90=problem.inverse(mean - half), high90=problem.inverse(mean + half))
 
 
 def leaders(search: Search, judged: Posterior) -> dict[Explanation, Refined]:

@@ -96,6 +96,19 @@ MOST_ERROR_SHARE = 0.7
 CONDITIONS_WON = 0.75
 """Judgement. Share of the conditions in which a power law must predict left-out levels better: most of them."""
 
+# Table of the missing part
+NODES_OF_TABLE = 2000
+"""Cost limit. Rows of a table of the missing part."""
+NODES_OF_CONDITION = 12
+"""Cost limit. Nodes of a condition in the table; with fewer levels, the levels."""
+NODES_OF_WAVE = 16
+"""Judgement. Nodes of a period of a wave: linear interpolation is then wrong by 2 % of its height."""
+NODES_OF_PEAK = 13
+"""Judgement. Nodes over four widths of a peak: linear interpolation is then wrong by 1 % of its height."""
+
+EDGE = 1e-6
+"""Definition. Distance of the two nodes of a step, as a share of the range: narrow."""
+
 # Next tests
 MOST_CONDITIONS = 600
 """Cost limit. Evaluated conditions."""

@@ -16,7 +16,7 @@ from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.diagnosis.assessment.campaign import Standing
 from mixedlub.diagnosis.assessment.experiment_design import NextTest
 from mixedlub.diagnosis.assessment.prediction import Refined
-from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.diagnose import TABLE, Diagnosis
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING
 from mixedlub.diagnosis.labels import in_units_of_case
 from mixedlub.diagnosis.report.text.location_text import located
@@ -66,6 +66,8 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
             "split": d.heldout.split,
             "folds": d.heldout.folds,
         },
+        "law": law_record(d),
+        "improved": improved_record(d),
         "outlier_runs": d.outlier_runs,
         "next_tests": [{**test_record(d, t), "readings": d.batch.readings} for t in d.batch.tests],
         "next_batch": batch_record(d),
@@ -75,6 +77,48 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
         **({"hypotheses": [asdict(one) for one in d.hypotheses]} if d.hypotheses else {}),
         **({} if d.check is None else {"check": asdict(d.check)}),
     }
+
+
+def law_record(d: Diagnosis) -> dict[str, Any] | None:
+    """The law found for a mismatch without a name, with its rivals; None without a law that predicts left-out levels
+    better than calibration."""
+    law = d.law
+    if law is None:
+        return None
+    refined = law.refined[law.explanation]
+    index, parameters = law.search.problem.calibration_size, []
+    for e in law.search.problem.effects(law.explanation):
+        for p in e.parameters:
+            if e.id == law.effect.id:
+                value, low, high = interval(p.prior, refined.z[index], refined.spread[index])
+                parameters.append({"name": p.name, "unit": p.unit, "value": value, "low90": low, "high90": high})
+            index += 1
+    rivals = [
+        {
+            **{key: rival.data[key] for key in ("stage", "acts_on", "form", "expression")},
+            "log_evidence_behind": rival.behind,
+            "heldout_after": rival.heldout,
+            "equivalent": rival.equivalent,
+        }
+        for rival in law.rivals
+    ]
+    return {
+        **{key: law.data[key] for key in ("stage", "acts_on", "form", "expression")},
+        "parameters": parameters,
+        "range": {name: list(ends) for name, ends in law.ranges.items()},
+        "heldout_before": law.heldout.before,
+        "heldout_after": law.heldout.after,
+        "rivals": rivals,
+        "empirical": True,
+    }
+
+
+def improved_record(d: Diagnosis) -> dict[str, Any]:
+    """The model in the folder improved, its error on left-out levels, and the errors of its table."""
+    record: dict[str, Any] = {"model": d.handed_on, "heldout": d.handed_on_error}
+    if d.handed_on == TABLE:
+        record |= {"table_rms_error": d.tabulated.rms_error, "table_largest_error": d.tabulated.largest_error}
+    return record
 
 
 def verdict_fit(d: Diagnosis) -> Refined:
@@ -236,7 +280,8 @@ def predictions(d: Diagnosis) -> pd.DataFrame:
     parts = []
     for p in (d.recorded, d.faulty, d.wanted):
         if p is not None:
-            numbers = {name: getattr(p, name) for name in PREDICTED}
+            handed = d.handed(p)
+            numbers = {name: getattr(handed, name) for name in PREDICTED}
             columns = pd.DataFrame({"run": p.table["run"], **numbers})
             words = pd.Series(_validity(d, p.table), name="validity")
             parts.append(pd.concat([columns, conditions_of(d.case, p.table), words], axis=1))

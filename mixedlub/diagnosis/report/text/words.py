@@ -6,12 +6,15 @@ import textwrap
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from mixedlub.case.missing_part import FILE
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.plain_text import plain_equation
 from mixedlub.diagnosis.assessment.campaign import Campaign
 from mixedlub.diagnosis.assessment.identifiability import confusion
 from mixedlub.diagnosis.assessment.power_law import Absorbed, DescribedDiscrepancy
-from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.diagnose import CALIBRATION as BASE_ALONE
+from mixedlub.diagnosis.diagnose import LAW, TABLE, Diagnosis
+from mixedlub.diagnosis.discovery.files import FILE as LAW_FILE
 from mixedlub.diagnosis.discrepancy.modulated import ADDITIVE, READING
 from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.labels import (
@@ -24,6 +27,7 @@ from mixedlub.diagnosis.labels import (
     words_of,
 )
 from mixedlub.diagnosis.report.text.alternatives import AS_IF_NOTHING, alternatives
+from mixedlub.diagnosis.report.text.found_law import found_law
 from mixedlub.diagnosis.report.text.headline import (
     chance,
     doubts,
@@ -237,17 +241,17 @@ def _discrepancy(d: Diagnosis, discrepancy: DescribedDiscrepancy) -> Section:
         )
         if worse:
             sentences.append(NATS)
-    if law is None:
+    if law is None and d.law is None:
         sentences.append(
             "No simple law: no power law of conditions or film quantities predicts levels it was not fitted to."
         )
-    else:
+    elif law is not None:
         sentences.append(
             f"Shortest form found, empirical (a description, not physics): {law.text}. On whole levels left out, of "
             f"one condition after another, the error falls from {law.heldout_before:.2f} to {law.heldout_after:.2f} "
             "sigma."
         )
-    return Section(UNNAMED, tuple(sentences))
+    return Section(UNNAMED, (*sentences, *found_law(d)))
 
 
 def distinguishable(stages: Sequence[Absorbed]) -> bool:
@@ -287,12 +291,27 @@ def _stage(absorbed: Absorbed) -> str:
 
 
 def _improved(d: Diagnosis) -> tuple[str, ...]:
-    """Instruction to run the verdict's model at other conditions."""
-    if d.posterior.verdict.is_discrepancy:
-        return ("None can be run at other conditions: the missing part has no law.",)
+    """Instruction to run the improved model at other conditions."""
+    run = "mixedlub simulate runs it, at other conditions with --at."
+    if d.handed_on == TABLE:
+        error = d.tabulated.rms_error
+        return (
+            "The folder improved is the calibrated base model with a table of the missing part, which has no law: "
+            f"{FILE}, with its standard deviation. {run} At the recorded conditions it follows the predictions to "
+            f"{error:.2g} sigma (rms). It holds inside the recorded range only. Rows outside say so in their column "
+            "validity; they keep the value at the end of the range, as a jump there would be an invention, and rows "
+            "with surfaces that were not recorded have the calibrated base model.",
+        )
+    if d.handed_on == LAW:
+        return (
+            f"The folder improved is the case with the law found, {LAW_FILE}, at its most probable parameters. {run} "
+            "It is empirical: outside the range of the file, the column validity says so.",
+        )
+    if d.handed_on == BASE_ALONE:
+        return (f"The folder improved is the calibrated base model alone. {run}",)
     return (
         "The folder improved is a case with the most probable parameters and calibration of this answer alone: no "
-        "average over explanations, no error of form. mixedlub simulate runs it, at other conditions with --at.",
+        f"average over explanations, no error of form. {run}",
     )
 
 

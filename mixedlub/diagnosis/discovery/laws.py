@@ -1,0 +1,340 @@
+"""Search for a law of a mismatch without a name: screened, fitted in the whole model, proved on left-out levels."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from mixedlub.case.folder import Case
+from mixedlub.chain.effect import Effect
+from mixedlub.chain.priors import LogNormal, Normal, Prior, Uniform
+from mixedlub.diagnosis.assessment.cross_validation import HeldOut, LevelsOut
+from mixedlub.diagnosis.assessment.posterior import Posterior
+from mixedlub.diagnosis.assessment.prediction import Refined, refine
+from mixedlub.diagnosis.discovery.files import LETTERS, as_effect, law_data
+from mixedlub.diagnosis.discovery.screening import ADD, Candidate, Target, price, screened
+from mixedlub.diagnosis.discovery.terms import Variable, variables
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
+from mixedlub.diagnosis.inference.likelihood import outlier_chance
+from mixedlub.diagnosis.inference.map_fit import Fit, map_fit
+from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.search.search import Search
+from mixedlub.diagnosis.settings.assessment import CHANCE_GAIN, COLLINEAR, OUTSIDE_OF_END
+from mixedlub.diagnosis.settings.discovery import (
+    EQUIVALENT_WITHIN,
+    FAR_BEHIND,
+    FIT_GAIN,
+    FORMS_ELSEWHERE,
+    FORMS_FITTED,
+    LEAST_GAIN,
+    LISTED_BEHIND,
+    PROVED,
+    RIVALS,
+    SAME_WITHIN,
+)
+from mixedlub.diagnosis.settings.inference import LIKELY
+from mixedlub.own_laws import check_usable, columns_read
+from mixedlub.recording.conditions import PASSING
+from mixedlub.running.parallel import shared_out
+from mixedlub.schema.table import BOOKKEEPING, Table
+from profiles.errors import InputError
+
+NAME = "found_law"
+"""Id of a found law."""
+
+
+@dataclass(frozen=True, eq=False)
+class Weighed:
+    """A fitted law: log evidence plus log prior, fit, effect, and the file with the fitted values."""
+
+    log_weight: float
+    fit: Fit
+    effect: Effect
+    data: Mapping[str, Any]
+    candidate: Candidate
+
+
+@dataclass(frozen=True, eq=False)
+class Rival:
+    """Another law: its file, log evidence behind the best, and error on left-out levels if it was proved."""
+
+    effect: Effect
+    data: Mapping[str, Any]
+    behind: float
+    heldout: float | None
+    equivalent: bool
+
+
+@dataclass(frozen=True, eq=False)
+class FoundLaw:
+    """A law that predicts left-out levels better than calibration, with a search in which it is an explanation.
+
+    ``data``: its file; ``ranges``: ends of what it depends on.
+    """
+
+    effect: Effect
+    data: Mapping[str, Any]
+    search: Search
+    explanation: Explanation
+    refined: Mapping[Explanation, Refined]
+    heldout: HeldOut
+    rivals: tuple[Rival, ...]
+    ranges: Mapping[str, tuple[float, float]]
+
+    def holds(self, table: Table) -> np.ndarray:
+        """Rows whose conditions are within the range of the recorded ones on which the law depends."""
+        inside = np.ones(len(table), bool)
+        for name, (low, high) in self.conditions.items():
+            if name in table:
+                slack = OUTSIDE_OF_END * (high - low)
+                inside &= (table[name] >= low - slack) & (table[name] <= high + slack)
+        return inside
+
+    @property
+    def conditions(self) -> dict[str, tuple[float, float]]:
+        """Recorded ranges of the numeric conditions; of all if the law reads quantities of the chain."""
+        rows = self.search.problem.rows
+        names = [axis.name for axis in self.search.space.axes if not axis.named and axis.name in rows]
+        own = [name for name in names if name in self.ranges]
+        used = own if len(own) == len(self.ranges) else [name for name in names if name not in PASSING]
+        return {name: (float(np.min(rows[name])), float(np.max(rows[name]))) for name in used}
+
+    @property
+    def written(self) -> Effect:
+        """The law as an effect whose file has the fitted values."""
+        return as_effect({**self.data, "id": self.effect.id}, _columns(self.search.problem.case))
+
+    @property
+    def posterior(self) -> Posterior:
+        """The law as the only explanation, for predictions."""
+        weights = {self.explanation: 1.0, NOTHING: 0.0, DISCREPANCY: 0.0}
+        return Posterior(weights, self.explanation, (self.explanation,))
+
+
+def find_law(search: Search, levels: LevelsOut) -> FoundLaw | None:
+    """The best law that predicts left-out levels clearly better than calibration; None if there is none."""
+    full, search = search, search.full_screen
+    every = variables(search)
+    if not every:
+        return None
+    tried = [c for c in screened(search, every) if c.score > FIT_GAIN]
+    if not tried:
+        return None
+    forms = _fitted(search, every, _kinds(tried, len(every)))
+    elsewhere = [c for w in forms[:FORMS_ELSEWHERE] for c in _on_other_quantities(w, search, tried)]
+    weighed = [*forms, *_fitted(search, every, elsewhere, len(forms))]
+    weighed = sorted((w for w in weighed if w.log_weight > search.null_fit.evidence + FIT_GAIN), key=_by_weight)
+    if not weighed:
+        return None
+    laws = {w.effect.id: w.effect for w in weighed}
+    own = _with_laws(search.problem, laws)
+    proof = _levels_with(levels, own, laws, {w.fit.explanation: w.fit for w in weighed})
+    held = {
+        w.effect.id: proof.held(w.fit.explanation, outlier_chance(w.fit.residual) > LIKELY) for w in _leading(weighed)
+    }
+    # Evidence decides between laws; the error on left-out levels decides whether one is a law at all.
+    best = next((w for w in weighed if w.effect.id in held and _is_better(held[w.effect.id])), None)
+    if best is None:
+        return None
+    kept, single = held[best.effect.id], search.problem.n_per_effective
+    near = [w for w in weighed if w is not best and w.log_weight > best.log_weight - LISTED_BEHIND][:RIVALS]
+    rivals = tuple(_rival(w, best, held, single) for w in near)
+    law, fit = best.effect, best.fit
+    final = _with_laws(full.problem, {law.id: law})
+    if full is not search:
+        fit = map_fit(final, fit.explanation, fit.z, warm=True)
+    own_search = replace(
+        full, problem=final, fits={**full.fits, fit.explanation: fit}, screen=None, scores={**full.scores}
+    )
+    refined = {fit.explanation: refine(own_search, fit), NOTHING: refine(own_search, full.null_fit)}
+    ranges = {
+        v.text: (float(v.values.min()), float(v.values.max())) for v in every if v.text in best.data["expression"]
+    }
+    return FoundLaw(
+        law,
+        _valued(best.data, final, fit),
+        own_search,
+        fit.explanation,
+        refined,
+        kept.single_reading_units(single),
+        rivals,
+        ranges,
+    )
+
+
+def _by_weight(w: Weighed) -> float:
+    return -w.log_weight
+
+
+def _is_better(kept: HeldOut) -> bool:
+    """Whether a law predicts left-out levels clearly better than calibration alone."""
+    return kept.after <= LEAST_GAIN * kept.before and kept.score > kept.score_before + CHANCE_GAIN
+
+
+def _rival(w: Weighed, best: Weighed, held: Mapping[str, HeldOut], single: float) -> Rival:
+    """Another law beside the best one; equal evidence and equal errors on left-out levels are no difference."""
+    own, behind = held.get(w.effect.id), best.log_weight - w.log_weight
+    error = None if own is None else own.single_reading_units(single).after
+    limit = (1.0 + EQUIVALENT_WITHIN) * held[best.effect.id].after
+    equivalent = abs(behind) <= SAME_WITHIN and (own is None or own.after <= limit)
+    return Rival(w.effect, w.data, behind, error, equivalent)
+
+
+def _kinds(tried: list[Candidate], count: int) -> list[Candidate]:
+    """Forms to be fitted, on the best quantity and on the next one that differs: single terms, products and sums."""
+    first = tried[0].target
+    unlike = (c.target for c in tried if not _alike(c.target, first))
+    found: list[Candidate] = []
+    for target, share in ((first, 1.0), (next(unlike, None), 0.5)):
+        own: dict[tuple[str, ...], Candidate] = {}
+        for c in tried:
+            if c.target is target:
+                own.setdefault(c.kind, c)
+        groups: dict[str, list[Candidate]] = {}
+        for c in own.values():
+            groups.setdefault(_group(c), []).append(c)
+        for name, most in FORMS_FITTED.items():
+            ranked = sorted(groups.get(name, []), key=lambda c: -c.score - price(c, count))
+            found += ranked[: max(1, round(share * most))]
+    return found
+
+
+def _group(c: Candidate) -> str:
+    if len(c.terms) > 1:
+        return "powers" if all(t.shape == "power" for t in c.terms) else "sum"
+    return "product" if len(c.terms[0].variables) > 1 else "single"
+
+
+def _alike(one: Target, other: Target) -> bool:
+    """Whether changes of two quantities look alike in every reading."""
+    size = np.linalg.norm(one.column) * np.linalg.norm(other.column)
+    return bool(abs(one.column @ other.column) > COLLINEAR * size)
+
+
+def _on_other_quantities(w: Weighed, search: Search, tried: list[Candidate]) -> list[Candidate]:
+    """The form of a fitted law on every other quantity, from the fitted parameters."""
+    values = _with_laws(search.problem, {w.effect.id: w.effect}).parameters(w.fit.explanation, w.fit.z)[w.effect.id]
+    own, found, seen = w.candidate.target, [], []
+    terms = tuple(replace(t, start={name: float(values[name]) for name in t.start}) for t in w.candidate.terms)
+    for target in (c.target for c in tried):
+        if target is own or any(target is one for one in seen):
+            continue
+        seen.append(target)
+        if target.form == ADD and any(t.shape in ("power", "threshold") for t in terms):
+            continue
+        ratio = float(own.column @ target.column / (target.column @ target.column))
+        amplitudes = tuple(ratio * float(values[letter]) for letter in LETTERS[: len(terms)])
+        found.append(Candidate(target, terms, amplitudes, w.candidate.score))
+    return found
+
+
+def _fitted(search: Search, every: list[Variable], candidates: list[Candidate], before: int = 0) -> list[Weighed]:
+    """Candidates fitted through the whole model, best first; ``before``: laws that have their ids."""
+    offered = _offered(search, candidates, every, before)
+    own = _with_laws(search.problem, {law.id: law for law, _, _ in offered})
+    base = search.discrepancy.base.explanation
+    start = search.fits.get(base, search.null_fit)
+
+    def fitted(item: tuple[Effect, dict[str, Any], Candidate]) -> Fit | None:
+        key = Explanation.of(*base.effects, item[0].id)
+        try:
+            return map_fit(own, key, _start(own, key, item[0], start, search.problem), warm=True)
+        except np.linalg.LinAlgError:
+            return None
+
+    found = [
+        Weighed(fit.evidence + price(c, len(every)), fit, law, _valued(data, own, fit), c)
+        for fit, (law, data, c) in zip(shared_out(fitted, offered), offered, strict=True)
+        if fit is not None and np.isfinite(fit.evidence)
+    ]
+    return sorted(found, key=_by_weight)
+
+
+def _offered(
+    search: Search, leaders: list[Candidate], every: list[Variable], before: int
+) -> list[tuple[Effect, dict[str, Any], Candidate]]:
+    """The candidates as effects, without those that cannot act in the chain."""
+    problem = search.problem
+    kind = problem.case.kind
+    columns = _columns(problem.case)
+    ranges = {v.text: [float(v.values.min()), float(v.values.max())] for v in every if _has_range(v.text)}
+    found = []
+    for c in leaders:
+        number = before + len(found) + 1
+        name = f"{NAME}_{number}" if number > 1 or NAME in problem.case.laws else NAME
+        data = law_data(name, c, c.target.column, ranges)
+        try:
+            law = as_effect(data, columns)
+            inputs = {**problem.forward.inputs, **columns_read([law], problem.rows.columns)}
+            check_usable(law, problem.forward.chain, inputs, "reading", kind.name)
+        except InputError:
+            continue
+        found.append((law, data, c))
+    return found
+
+
+def _has_range(name: str) -> bool:
+    """Whether a variable is a quantity of its own, so that its range can be part of the file."""
+    return re.fullmatch(r"\w+", name) is not None
+
+
+def _columns(case: Case) -> list[str]:
+    return [c.name for c in (*BOOKKEEPING, *case.kind.columns) if c.dtype == "number"]
+
+
+def _with_laws(problem: Problem, laws: Mapping[str, Effect]) -> Problem:
+    """The problem of a case that has these laws too."""
+    case = replace(problem.case, laws={**problem.case.laws, **laws})
+    return replace(problem, case=case, forward=problem.forward.with_laws(case))
+
+
+def _levels_with(
+    levels: LevelsOut, problem: Problem, laws: Mapping[str, Effect], fits: Mapping[Explanation, Fit]
+) -> LevelsOut:
+    """The folds of an answer, with laws and their fits."""
+    search = replace(levels.search, problem=problem, fits={**levels.search.fits, **fits})
+    folds = tuple(replace(f, train=_with_laws(f.train, laws), test=_with_laws(f.test, laws)) for f in levels.folds)
+    return replace(levels, search=search, folds=folds, refitted={})
+
+
+def _leading(weighed: list[Weighed]) -> list[Weighed]:
+    """The laws to prove: the best, and others that are not far behind, of other quantities first."""
+    near = [w for w in weighed if w.log_weight > weighed[0].log_weight - FAR_BEHIND]
+    first: dict[tuple[str, str], Weighed] = {}
+    for w in near:
+        first.setdefault((w.data["acts_on"], w.data["form"]), w)
+    rest = [w for w in near if not any(w is one for one in first.values())]
+    return sorted([*first.values(), *rest][:PROVED], key=_by_weight)
+
+
+def _start(problem: Problem, key: Explanation, law: Effect, base: Fit, plain: Problem) -> np.ndarray:
+    """Coordinates of the base fit and of the screened parameters."""
+    own = plain.own_coordinates(base.explanation, base.z)
+    parts = [base.z[: problem.calibration_size]]
+    for e in problem.effects(key):
+        parts.append(np.array([_coordinate(p.prior, p.usual) for p in e.parameters]) if e.id == law.id else own[e.id])
+    return np.concatenate(parts)
+
+
+def _coordinate(prior: Prior, value: float) -> float:
+    """Standard-normal coordinate of a value under a prior of a found law."""
+    from statistics import NormalDist
+
+    if isinstance(prior, Normal):
+        return (value - prior.mean) / prior.sd
+    if isinstance(prior, LogNormal):
+        return float(np.log(value / prior.median)) / prior.spread
+    assert isinstance(prior, Uniform)
+    share = (value - prior.low) / (prior.high - prior.low)
+    return NormalDist().inv_cdf(min(max(share, 1e-3), 1.0 - 1e-3))
+
+
+def _valued(data: Mapping[str, Any], problem: Problem, fit: Fit) -> dict[str, Any]:
+    """The file of a law with its fitted values."""
+    values = problem.parameters(fit.explanation, fit.z)[data["id"]]
+    parameters = {name: {**own, "value": float(f"{values[name]:.6g}")} for name, own in data["parameters"].items()}
+    return {**data, "parameters": parameters}

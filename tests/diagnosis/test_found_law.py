@@ -1,0 +1,97 @@
+"""A law without a name: found in the model, fitted, proved on left-out levels, and handed on as a file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mixedlub.api.diagnosis import Answer
+from mixedlub.case.files import case_files
+from mixedlub.case.folder import conditions_for, read_case
+from mixedlub.case.simulation import simulate
+from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.report.files import write
+from mixedlub.own_laws import read_law
+from mixedlub.schema.findings import collected
+
+
+@pytest.fixture(scope="module")
+def powers(
+    make_case: Callable[..., Path], excluded: tuple[str, ...], tmp_path_factory: pytest.TempPathFactory
+) -> Diagnosis:
+    """A gear rig whose loss follows other powers of torque and speed: (T/100)^-0.3 (n/1500)^0.4 times the base."""
+
+    def change(conditions: dict[str, np.ndarray], base: np.ndarray) -> np.ndarray:
+        return base * (conditions["torque_Nm"] / 100.0) ** -0.3 * (conditions["speed_rpm"] / 1500.0) ** 0.4
+
+    return diagnose_case(make_case(tmp_path_factory.mktemp("powers"), "gear_pair", change), exclude=excluded)
+
+
+def test_the_planted_exponents_are_found(powers: Diagnosis) -> None:
+    law = Answer(powers).record["law"]
+    assert powers.posterior.verdict.is_discrepancy
+    assert law["form"] == "factor"
+    assert law["acts_on"] in ("reading", "friction")
+    found = dict(zip(("speed_rpm", "torque_Nm"), (0.4, -0.3), strict=True))
+    first = law["expression"].partition("*")[0]
+    order = ("speed_rpm", "torque_Nm") if "speed_rpm" in first else ("torque_Nm", "speed_rpm")
+    for name, p in zip(order, law["parameters"], strict=True):
+        width = p["high90"] - p["low90"]
+        assert p["low90"] - width < found[name] < p["high90"] + width
+        assert width < 0.1
+    assert law["heldout_after"] < 1.3 < 10.0 < law["heldout_before"]
+    assert law["empirical"] is True
+
+
+def test_laws_that_cannot_be_told_apart_are_listed(powers: Diagnosis) -> None:
+    law = Answer(powers).record["law"]
+    alike = {rival["acts_on"] for rival in law["rivals"] if rival["equivalent"]}
+    assert {law["acts_on"], *alike} >= {"reading", "friction"}
+    assert all(rival["log_evidence_behind"] < 30.0 for rival in law["rivals"])
+    assert "cannot tell it from" in str(Answer(powers))
+
+
+def test_the_improved_model_has_the_law_as_a_file(powers: Diagnosis, tmp_path: Path) -> None:
+    assert powers.handed_on == "law"
+    write(case_files(Answer(powers).improved), tmp_path / "improved")
+    law = read_law(tmp_path / "improved" / "law.toml", ["torque_Nm", "speed_rpm"])
+    assert law.acts_on[0] in ("reading", "friction")
+    case = read_case(tmp_path / "improved")
+    predicted = Answer(powers).predictions["predicted"].to_numpy()
+    with collected():
+        assert simulate(case)[case.quantity].to_numpy() == pytest.approx(predicted, rel=1e-9)
+
+
+def test_outside_its_range_the_law_says_so(powers: Diagnosis) -> None:
+    case = Answer(powers).improved
+    row = {n: v[:1] for n, v in powers.search.problem.rows.columns.items() if n not in ("run", powers.case.quantity)}
+    at = {n: np.repeat(v, 2) for n, v in row.items()} | {"speed_rpm": np.array([1200.0, 9000.0])}
+    with collected():
+        validity = simulate(case, conditions_for(case, at))["validity"].tolist()
+    assert ["found_law" in words for words in validity] == [False, True]
+
+
+def test_a_resonance_is_found_that_the_smooth_discrepancy_cannot_predict(unnamed: Diagnosis) -> None:
+    law = Answer(unnamed).record["law"]
+    assert unnamed.heldout.after > unnamed.heldout.before
+    assert law["heldout_after"] < 0.3 * law["heldout_before"]
+    place = next(p for p in law["parameters"] if p["name"] == "b")
+    assert place["value"] == pytest.approx(1500.0, rel=0.1)  # of a bell over the logarithm
+    assert Answer(unnamed).record["improved"]["model"] == "law"
+
+
+def test_where_nothing_is_missing_or_an_effect_has_a_name_no_law_is_sought(
+    complete: Diagnosis, offset: Diagnosis
+) -> None:
+    assert Answer(complete).record["law"] is None
+    assert Answer(offset).record["law"] is None
+
+
+def test_without_a_law_the_answer_says_so(unnamed: Diagnosis) -> None:
+    bare = replace(unnamed, law=None)
+    assert Answer(bare).record["law"] is None
+    assert "No law acting in the model was found" in " ".join(str(Answer(bare)).split())
