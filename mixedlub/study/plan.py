@@ -203,6 +203,8 @@ class Study:
     effects: tuple[Effect, ...]
     plan: Plan
     notes: tuple[Finding, ...] = ()
+    stated: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    """Parameters in the file, by effect."""
 
     @property
     def needs_quotes(self) -> bool:
@@ -286,9 +288,9 @@ def pairings_of(section: Pairings | None, known: Mapping[str, object]) -> tuple[
     return tuple(itertools.product(section.pinion or (), section.gear or ()))
 
 
-def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
-    effects, laws = by_id(file.effects, rig.folder)
-    file = file.model_copy(update={"effects": effects}) if laws else file
+def _resolve(name: str, given: StudyFile, rig: Rig) -> Study:
+    stated, laws = by_id(given.effects, rig.folder)
+    file = given.model_copy(update={"effects": stated})
     chosen = pairings_of(file.pairings, file.surfaces)
     used = dict.fromkeys(s for both in chosen for s in both)
     idle = [s for s in file.surfaces if s not in used]
@@ -332,7 +334,7 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
             report(found)
     if plan.balanced and options.mixture == "tallian":
         report(finding("balance_by_area", BY_AREA, "options.mixture"))
-    return Study(name, file, rig, pair, points, oil, surfaces, chosen, active, plan)
+    return Study(name, given, rig, pair, points, oil, surfaces, chosen, active, plan, stated=stated)
 
 
 def _full_base(file: StudyFile, rig: Rig, oil: Lubricant, inputs: Mapping[str, Any]) -> Emulator:

@@ -98,7 +98,7 @@ def assumed(study: Study) -> Iterator[str]:
     unread = ignored(file.options, study.plan.model())
     yield from _left_out(file.options, "options", tuple(n for n in type(file.options).model_fields if n not in unread))
     for effect, values in study.plan.parameters.items():
-        yield from (f"effects.{effect}.{name}" for name in values if name not in file.effects[effect])
+        yield from (f"effects.{effect}.{name}" for name in values if name not in study.stated[effect])
 
 
 def _left_out(section: Section, place: str, keys: tuple[str, ...]) -> Iterator[str]:
