@@ -193,7 +193,7 @@ def _with_addition(reading: np.ndarray, missing_reading: np.ndarray) -> np.ndarr
 
 
 def as_effect(is_share: bool) -> Effect:
-    """The missing part as an effect without parameters, whose values are an input of the model."""
+    """The missing part as an effect without parameters; its values are an input of the model."""
     return Effect(
         name="missing_part",
         law=_with_share if is_share else _with_addition,

@@ -136,8 +136,8 @@ class Diagnosis:
 
     @property
     def handed_on(self) -> str:
-        """The model in `improved` and in the predictions: of the answer and calibration alone, the one that predicts
-        left-out levels best. A discrepancy is handed on as a law or as a table."""
+        """The model in `improved` and in the predictions: the answer, or calibration alone where it predicts
+        left-out levels better. A discrepancy is handed on as a law or as a table."""
         verdict = self.posterior.verdict
         errors = {CALIBRATION: self.heldout.before}
         if verdict.is_discrepancy:
@@ -155,7 +155,7 @@ class Diagnosis:
         return self.heldout.before if self.handed_on == CALIBRATION else self.heldout.after
 
     def handed(self, p: Predicted) -> Predicted:
-        """Predictions by the model that is handed on; the mismatch remains that of the answer."""
+        """Predictions by the model that is handed on; the mismatch remains as answered."""
         if self.handed_on == LAW and self.law is not None:
             law = self.law
             with threadpool_limits(limits=1, user_api="blas"):

@@ -41,8 +41,8 @@ class Tabulated:
 def tabulated(search: Search, recorded: Predicted, predict: Callable[[Table], Predicted]) -> Tabulated:
     """The missing part over a grid of the recorded conditions, as a share of the reading or an addition to it.
 
-    Of the two the one is taken that follows the prediction of the recorded rows more closely. The standard deviation
-    contains the error of interpolation.
+    The form that follows the prediction of the recorded rows more closely is taken. The standard deviation contains the
+    error of interpolation.
     """
     rows, kind = search.problem.rows, search.problem.case.kind
     grid = _grid(search)

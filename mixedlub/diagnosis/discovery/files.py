@@ -59,7 +59,7 @@ def _amplitude_sd(c: Candidate, place: int, sizes: np.ndarray) -> float:
 
 
 def _as_factor(c: Candidate, parts: list[str]) -> str:
-    """The factor whose logarithm is the sum of the parts; powers as such."""
+    """The factor with the sum of the parts as its logarithm; powers as such."""
     factors, rest = [], []
     for i, (term, part) in enumerate(zip(c.terms, parts, strict=True)):
         text = part.partition("*")[2]

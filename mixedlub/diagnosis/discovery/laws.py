@@ -73,7 +73,7 @@ class Rival:
 class FoundLaw:
     """A law that predicts left-out levels better than calibration, with a search in which it is an explanation.
 
-    ``data``: its file; ``ranges``: ends of what it depends on.
+    ``data``: its file; ``ranges``: ends of its variables.
     """
 
     effect: Effect
@@ -105,7 +105,7 @@ class FoundLaw:
 
     @property
     def written(self) -> Effect:
-        """The law as an effect whose file has the fitted values."""
+        """The law as an effect, with the fitted values in its file."""
         return as_effect({**self.data, "id": self.effect.id}, _columns(self.search.problem.case))
 
     @property
@@ -257,7 +257,7 @@ def _fitted(search: Search, every: list[Variable], candidates: list[Candidate], 
 def _offered(
     search: Search, leaders: list[Candidate], every: list[Variable], before: int
 ) -> list[tuple[Effect, dict[str, Any], Candidate]]:
-    """The candidates as effects, without those that cannot act in the chain."""
+    """The candidates as effects, without laws that cannot act in the chain."""
     problem = search.problem
     kind = problem.case.kind
     columns = _columns(problem.case)
@@ -278,7 +278,7 @@ def _offered(
 
 
 def _has_range(name: str) -> bool:
-    """Whether a variable is a quantity of its own, so that its range can be part of the file."""
+    """Whether a variable is a single quantity, so that its range can be part of the file."""
     return re.fullmatch(r"\w+", name) is not None
 
 

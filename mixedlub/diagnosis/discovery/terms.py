@@ -35,7 +35,7 @@ CHAIN = ("slide_roll_ratio", "composite_roughness", "viscosity", "hertz_pressure
 
 @dataclass(frozen=True, eq=False)
 class Variable:
-    """What a term depends on: its text in an expression, and its value for each reading."""
+    """Variable of a term: its text in an expression, and its value for each reading."""
 
     text: str
     values: np.ndarray
@@ -110,7 +110,7 @@ class Term:
 
 
 def variables(search: Search) -> list[Variable]:
-    """Conditions and quantities of the chain that varied, without those that repeat an earlier one."""
+    """Conditions and quantities of the chain that varied, without powers of an earlier one."""
     problem, fit = search.problem, search.discrepancy.base
     rows, run = problem.rows, problem.run(fit.explanation, fit.z)
     found: list[Variable] = []
@@ -136,7 +136,7 @@ def variables(search: Search) -> list[Variable]:
 
 
 def _add(found: list[Variable], new: Variable) -> None:
-    """Add a variable that varied and is no power of an earlier one."""
+    """Add a variable that varied, except a power of an earlier one."""
     v = new.values
     if not np.isfinite(v).all() or np.ptp(v) <= 0.0:
         return
