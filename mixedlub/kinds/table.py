@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import combinations_with_replacement
 from typing import Any
 
 import numpy as np
@@ -34,6 +35,12 @@ RESULTS = ("base", "calibrated", "predicted", "low90", "high90", "mismatch_z", "
 NO_UNIT = "-"
 ANY_CHANNEL = film.KIND.name
 """Kind whose faults of the channel apply to readings that no other kind has; its own effects lack their inputs."""
+RESPONSE = "response"
+"""Start of the names of second-order responses."""
+SECOND_ORDER = 3e-3
+"""Judgement. Largest product of two relative responses that no rig resolves."""
+SMALLEST_SHARE = 0.1
+"""Judgement. Smallest simulated reading over their median to which a response is related."""
 NOMINAL = "nominal_simulation"
 """Input of the chain: the simulation before calibration."""
 
@@ -169,7 +176,10 @@ def _calibration_at(place: Place, logarithmic: bool) -> Callable[[system_file.Sy
     """Function for the calibrated inputs of the simulation: those with a column in the recording."""
 
     def calibration(system: system_file.System, recorded: Table) -> tuple[Calibration, ...]:
-        return tuple(_calibrations(system, recorded, place.quantity(system, recorded), logarithmic))
+        quantity = place.quantity(system, recorded)
+        first = tuple(_calibrations(system, recorded, quantity, logarithmic))
+        headers = [c.needs[-1] for c in first]
+        return (*first, *_second_order(recorded, quantity, headers))
 
     return calibration
 
@@ -201,6 +211,36 @@ def _calibrations(
         parameter = Parameter(name, unit, prior, meaning)
         response = _response(quantity, header, nominal, one.spread, factor, as_power)
         yield Calibration(parameter, response, nominal, (quantity, NOMINAL, header), factor=factor)
+
+
+def _second_order(recorded: Table, quantity: str, headers: Sequence[str]) -> Iterator[Calibration]:
+    """Unknown second-order responses to two inputs, in proportion to the product of their relative responses.
+
+    A simulation is not linear in its inputs: without these terms a response of 20 % would look like missing physics.
+    """
+    changes = [_relative_change(recorded[SIMULATED], recorded[header]) for header in headers]
+    for (i, first), (j, second) in combinations_with_replacement(enumerate(headers), 2):
+        if np.max(np.abs(changes[i] * changes[j])) < SECOND_ORDER:
+            continue
+        names = [header.removeprefix(MOVED) for header in (first, second)]
+        meaning = f"second-order response of the simulation to {' and '.join(dict.fromkeys(names))}"
+        parameter = Parameter(f"{RESPONSE}.{'.'.join(names)}", NO_UNIT, Normal(0.0, 1.0), meaning)
+        needs = (quantity, NOMINAL, first, second)
+        yield Calibration(parameter, _bent(*needs), 0.0, needs, base_law=RESPONSE)
+
+
+def _relative_change(simulated: np.ndarray, moved: np.ndarray) -> np.ndarray:
+    size = np.maximum(np.abs(simulated), SMALLEST_SHARE * np.median(np.abs(simulated)) + 1e-300)
+    return np.asarray((moved - simulated) / size)
+
+
+def _bent(quantity: str, nominal: str, first: str, second: str) -> Callable[[Mapping[str, Any], float], dict[str, Any]]:
+    def response(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
+        simulated = inputs[nominal]
+        change = _relative_change(simulated, inputs[first]) * _relative_change(simulated, inputs[second])
+        return {quantity: inputs[quantity] + value * np.abs(simulated) * change}
+
+    return response
 
 
 def _response(
