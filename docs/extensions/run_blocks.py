@@ -12,21 +12,25 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, ClassVar
 
+import forked
 from docutils import nodes
 from docutils.parsers.rst import directives
 from docutils.parsers.rst.directives.images import Figure
 from sphinx.application import Sphinx
 from sphinx.directives.code import CodeBlock
 from sphinx.util.docutils import SphinxDirective
+from sphinx.util.parallel import make_chunks
 
 ROOT = Path(__file__).parents[2]
 COPIED = ("examples", "profiles/traces")
-STRICT = ("-W", "error", "-W", "default:caution", "-W", "default:doubt")
-"""Any warning is an error but those about the numbers of a result, which the page shows."""
+FEW = 10
+"""Blocks that load by themselves sooner than the whole package."""
 LIMIT_S = 300
 """Seconds after which a block has hung: the slowest takes some ten on two cores."""
 
@@ -68,10 +72,25 @@ class _InPage:
         while text not in (self.folder / f"{script}.log").read_text(encoding="utf-8") and time.monotonic() < end:
             time.sleep(0.1)
 
-    def output(self, words: list[str], status: int = 0) -> str:
-        """Output of a command in the page's folder; RuntimeError where its exit status is another."""
+    def output(self, program: str, *, python: bool = False, status: int = 0) -> str:
+        """Output of a program in the page's folder; RuntimeError where its exit status is another."""
+        words = None if python else forked.words(program)
+        if python:
+            ended, output = self._forked(partial(forked.python, program))
+        elif words is not None:
+            ended, output = self._forked(partial(forked.command, words))
+        else:
+            ended, output = self._of_shell(program)
+        if ended != status or "Exception ignored" in output:
+            raise RuntimeError(f"{program!r} ended with status {ended}, not {status}:\n{output}")
+        return output.rstrip()
+
+    def _forked(self, act: Callable[[], int]) -> tuple[int, str]:
+        return forked.run(act, self.folder, self.surroundings, LIMIT_S)
+
+    def _of_shell(self, program: str) -> tuple[int, str]:
         found = subprocess.run(
-            words,
+            ["bash", "-c", program],
             cwd=self.folder,
             env=self.surroundings,
             stdin=subprocess.DEVNULL,
@@ -81,9 +100,7 @@ class _InPage:
             timeout=LIMIT_S,
             check=False,
         )
-        if found.returncode != status or "Exception ignored" in found.stdout:
-            raise RuntimeError(f"{words[-1]!r} ended with status {found.returncode}, not {status}:\n{found.stdout}")
-        return found.stdout.rstrip()
+        return found.returncode, found.stdout
 
 
 def shortened(text: str, head: int | None, tail: int | None) -> str:
@@ -132,8 +149,7 @@ class Run(SphinxDirective, _InPage):
             self.wait_for(self.options["with"], self.options.get("once", ""))
         try:
             for program in programs:
-                words = [sys.executable, *STRICT, "-c", program] if python else ["bash", "-c", program]
-                output = self.output(words, self.options.get("status", 0))
+                output = self.output(program, python=python, status=self.options.get("status", 0))
                 output = shortened(output, self.options.get("head"), self.options.get("tail"))
                 shown += (
                     [_literal(program, "python")]
@@ -196,6 +212,16 @@ def _open(app: Sphinx) -> None:
     app.page_folders = TemporaryDirectory(prefix="pages-")  # type: ignore[attr-defined]
 
 
+def _deal(app: Sphinx, env: Any, docnames: list[str]) -> None:
+    """Deal the pages with most blocks out over the parts that are read at once; by name they would lie in one."""
+    parts = len(make_chunks(docnames, app.parallel))
+    blocks = {name: Path(env.doc2path(name)).read_text(encoding="utf-8").count("```{run}") for name in docnames}
+    ordered = sorted(docnames, key=lambda name: -blocks[name])
+    docnames[:] = [name for part in range(parts) for name in ordered[part::parts]]
+    if sum(blocks.values()) > FEW:
+        forked.load()
+
+
 def _close(app: Sphinx, error: Exception | None) -> None:
     app.page_folders.cleanup()  # type: ignore[attr-defined]
 
@@ -205,5 +231,6 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("file", File)
     app.add_directive("picture", Picture)
     app.connect("builder-inited", _open)
+    app.connect("env-before-read-docs", _deal)
     app.connect("build-finished", _close)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
