@@ -1,9 +1,16 @@
 """Fixtures shared by all tests."""
 
+from __future__ import annotations
+
 import os
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
+
+if TYPE_CHECKING:
+    from mixedlub.report.figures import Drawn
 
 
 def pytest_configure() -> None:
@@ -17,6 +24,18 @@ def pytest_configure() -> None:
 def pytest_make_parametrize_id(val: object, argname: str) -> str | None:
     """A file's bytes name no test: some hold the time they were made, which differs between workers."""
     return argname if isinstance(val, bytes) and len(val) > 40 else None
+
+
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pages of studies without drawing: the files of figures are empty."""
+
+    def saved(drawn: Drawn, folder: Path, formats: Sequence[str]) -> str:
+        for form in formats:
+            (folder / f"{drawn.name}.{form}").touch()
+        return ""
+
+    monkeypatch.setattr("mixedlub.report.page._saved", saved)
 
 
 @pytest.fixture(scope="session")

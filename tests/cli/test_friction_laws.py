@@ -133,7 +133,7 @@ def test_coefficients_of_the_study_itself_are_compared_with(study):
 
 
 def test_the_mesh_table_is_that_of_studies_with_the_law(study, tmp_path):
-    assert main(["friction-laws", "--study", str(study), "--out", str(tmp_path / "out")]) == 0
+    assert main(["friction-laws", "--study", str(study), "--no-figures", "--out", str(tmp_path / "out")]) == 0
     mesh = pd.read_csv(tmp_path / "out" / "mesh.csv")
     for name in ("schlenk", "xu_kahraman"):
         own = tmp_path / f"{name}.toml"

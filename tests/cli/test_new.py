@@ -144,6 +144,6 @@ def test_coefficients_of_the_template_are_taken(tmp_path, capsys):
     file = tmp_path / "coefficients.toml"
     lines = [OPTION.sub("", line).replace("NUMBER", "0.05") for line in file.read_text("utf-8").splitlines()]
     file.write_text("\n".join(line for line in lines if not line.startswith("condensed")) + "\n", encoding="utf-8")
-    given = ["--coefficients", str(file), "--out", str(tmp_path / "out")]
+    given = ["--coefficients", str(file), "--no-figures", "--out", str(tmp_path / "out")]
     assert main(["friction-laws", "--study", str(tmp_path / "study.toml"), *given]) == 0
     assert capsys.readouterr().err.count("is left out") == 1

@@ -137,6 +137,7 @@ def test_bands_are_layers_of_their_own(spec, tmp_path):
     assert low not in found["quantity"]["bind"]["options"]
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_page_without_the_library_of_the_chart_says_how_to_add_it(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "vl_convert", None)
     library.cache_clear()
