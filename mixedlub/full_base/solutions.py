@@ -22,7 +22,7 @@ from mixedlub.rig.lubricant import Lubricant
 
 LEAST_LOAD = 1.5
 """Judgement. Moes' load parameter M of the least flattened contact that is solved: below, the film carries the load
-over an area wider than that of Hertz."""
+over an area wider than Hertz' contact."""
 CANDIDATES = 8
 """Cost limit. Contacts drawn per contact that is solved."""
 KEPT = ("central_film", "friction_coefficient", "central_film_error", "friction_coefficient_error", "status")

@@ -363,6 +363,7 @@ class System(RigFile):
         "CONDITION = [LOW, HIGH] or { steps = [...] }, and pairings = [[SURFACE, SURFACE], ...]: what can be set; next "
         "tests stay inside it; left out: inside the recorded range and pairs",
         {},
+        example={},
     )
 
     @field_validator("recording", mode="before")

@@ -12,10 +12,8 @@ from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.inference.likelihood import outlier_chance
 from mixedlub.diagnosis.search.search import Search
+from mixedlub.diagnosis.settings.assessment import SMALLEST_P
 from mixedlub.diagnosis.settings.inference import LIKELY
-
-SMALLEST = 1e-300
-"""Smallest weight of an explanation in log odds."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +45,7 @@ def _weighed(name: str, probability: float, search: Search, judged: Posterior, l
     if fit is None:
         return Hypothesis(name, probability, None, None, {})
     best = max(weight for key, weight in judged.weights.items() if name in key.effects)
-    log_odds = float(np.log(max(best, SMALLEST) / judged.weights[judged.verdict]))
+    log_odds = float(np.log(max(best, SMALLEST_P) / judged.weights[judged.verdict]))
     kept = levels.held(alone, outlier_chance(fit.residual) > LIKELY)
     heldout = kept.single_reading_units(search.full_screen.problem.n_per_effective).after
     return Hypothesis(name, probability, log_odds, heldout, search.problem.parameters(alone, fit.z)[name])

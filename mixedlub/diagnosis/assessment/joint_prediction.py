@@ -87,7 +87,7 @@ def _form_error_size(
     search: Search, rows: NewRows, key: Explanation, fit: Refined, prediction: Prediction
 ) -> np.ndarray:
     """Size of the error of form at each row: it grows beyond the recorded range, where no reading bounds it."""
-    if not n_inexact(key):
+    if not n_inexact(search.problem, key):
         return np.zeros(len(rows.table))
     net = prediction.mean - rows.problem.predict(NOTHING, search.null_fit.z)
     least = FORM_ERROR_LEAST * fit.typical * rows.problem.sd

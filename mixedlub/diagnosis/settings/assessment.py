@@ -176,8 +176,8 @@ POOR_PREDICTION = 3.0
 LARGE_NOISE = 0.1
 """Judgement. Share of a reading from which estimated noise is doubted: rigs do better."""
 LARGEST_SCATTER = 0.2
-"""Measured (mixedlub prove --real). Largest share of a reading that is still noise where none is stated: every
-development recording with more scatter than this conceals a specimen, a condition or a mixture."""
+"""Judgement. Largest share of a reading that is still noise where none is stated: every development recording of
+`mixedlub prove --real` with more scatter conceals a specimen, a condition or a mixture."""
 VISIBLE = 3.0
 """Judgement. Change in standard deviations from which an effect is visible: clearly beyond noise."""
 CHANNEL_READINGS = 5
