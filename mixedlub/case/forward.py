@@ -196,7 +196,9 @@ class Forward:
         inputs, applied = self._calibrated(calibration, near)
         model = self._model(tuple(sorted(parameters or {})))
         every = {**self.known_values(calibration), **(parameters or {})}
-        record = model.record(inputs, every, None if near is None else near.record)
+        # A law of the user may overflow far out in its prior, where a search only needs to see that it is not finite.
+        with np.errstate(all="ignore" if self.case.laws else None):
+            record = model.record(inputs, every, None if near is None else near.record)
         return Run(self._rows(record["reading"]), record, applied, inputs)
 
     def _calibrated(

@@ -19,7 +19,7 @@ class Normal:
         return self.mean + self.sd * z
 
     def __str__(self) -> str:
-        return f"{self.mean:g} ± {self.sd:g}"
+        return f"{self.mean:g} ± {self.sd:g}" if self.sd else f"{self.mean:g}, known"
 
 
 @dataclass(frozen=True)

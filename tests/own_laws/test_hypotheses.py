@@ -19,7 +19,7 @@ RIVALS = ("inlet_shear_heating", "film_heating", "film_law", "boundary_speed_dep
 """Effects left in the catalogue, to keep the tests short."""
 OTHERS = tuple(name for name in catalogue() if name not in RIVALS)
 CASES, GEARS, BAR = 24, (1, 3, 5), 0.95
-"""Cases of the battery, gears among them, and the share of identifiable ones where the true law must be the answer."""
+"""Cases of the battery, seeds of gears, and least share of identifiable cases in which the true law is the answer."""
 
 Diagnosed = tuple[Made, Answer]
 
