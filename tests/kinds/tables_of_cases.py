@@ -122,7 +122,7 @@ ORDERS = (
         )
         for name in names
     ),
-    *(("disc", "measurement", (name,)) for name in ("sensor_offset", "sensor_gain", "sensor_drift", "force_offset")),
+    *(("disc", "measurement", (name,)) for name in ("sensor_offset", "sensor_gain", "sensor_drift")),
     *(("disc", "single", (name,)) for name in ("film_heating", "limiting_shear_stress")),
     *(("friction_map", "measurement", (name,)) for name in ("zero_drift", "sensor_drift")),
     *(("friction_map", "single", (name,)) for name in ("stribeck", "direction_dependence")),
