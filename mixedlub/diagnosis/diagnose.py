@@ -27,6 +27,7 @@ from mixedlub.diagnosis.assessment.answer_checks import (
     failed_warning,
     noise_notes,
     overdispersion_warning,
+    setup_notes,
 )
 from mixedlub.diagnosis.assessment.check_channel import Check, check_channel
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut
@@ -181,7 +182,7 @@ def diagnosis_of(
         progress("testing against nothing missing")
         search, test = mismatch_against_null(noise_search, level)
     given, case, rows = case, search.problem.case, search.problem.rows
-    warnings += noise_notes(search, noise_search.stated, noise_search.inflation)
+    warnings += [*noise_notes(search, noise_search.stated, noise_search.inflation), *setup_notes(given, search)]
     progress("leaving levels out")
     with threadpool_limits(limits=1, user_api="blas"):
         decided, heldout = judge(search, test)
