@@ -28,6 +28,7 @@ from mixedlub.diagnosis.assessment.answer_checks import (
     failed_warning,
     noise_notes,
     overdispersion_warning,
+    setup_notes,
 )
 from mixedlub.diagnosis.assessment.campaign import Campaign
 from mixedlub.diagnosis.assessment.check_channel import Check, check_channel
@@ -248,7 +249,7 @@ def _diagnosis_of(
         progress("testing against nothing missing")
         search, test = mismatch_against_null(noise_search, level)
     given, case, rows = case, search.problem.case, search.problem.rows
-    warnings += noise_notes(search, noise_search.stated, noise_search.inflation)
+    warnings += [*noise_notes(search, noise_search.stated, noise_search.inflation), *setup_notes(given, search)]
     progress("leaving levels out")
     with threadpool_limits(limits=1, user_api="blas"):
         levels = LevelsOut.of(search)

@@ -29,6 +29,7 @@ def test_a_second_specimen_is_a_group_and_no_clock_that_runs_backwards(tmp_path,
     d = diagnose_case(specimens(tmp_path, 0.03, column))
     codes = {one.code for one in d.warnings}
     assert not codes & {"time_backwards", "things_pooled"}
+    assert "setup_error_estimated" in codes
     assert ("column_as_setup" in codes) == (column != "setup")
     stated = d.case.system.recording.noise
     assert np.hypot(stated.setup_relative * 0.2, stated.setup_absolute) == pytest.approx(0.02, rel=0.6)

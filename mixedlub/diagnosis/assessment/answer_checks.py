@@ -6,6 +6,7 @@ from math import comb
 
 import numpy as np
 
+from mixedlub.case.folder import Case
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut
 from mixedlub.diagnosis.assessment.mismatch_test import noise_share
 from mixedlub.diagnosis.assessment.posterior import Posterior
@@ -26,6 +27,7 @@ from mixedlub.diagnosis.settings.assessment import (
 )
 from mixedlub.diagnosis.settings.search import INFLATION_GAIN, MOST_INFLATION
 from mixedlub.recording.conditions import PASSING, clock_of
+from mixedlub.recording.noise import setups_differ
 from mixedlub.recording.set_points import set_points
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.table import Table
@@ -40,6 +42,20 @@ def noise_notes(search: Search, stated: bool, inflation: NoiseInflation) -> list
     )
     series = [finding("residuals_autocorrelated", text)] if n_per_effective > 1.0 else []
     return [*series, *_drift_notes(search), *_size_notes(search, stated, inflation)]
+
+
+def setup_notes(given: Case, search: Search) -> list[Finding]:
+    """Finding on the error of set-ups, if it was estimated."""
+    noise = search.problem.case.system.recording.noise
+    if setups_differ(given) or noise is None or not noise.of_setups:
+        return []
+    size = (
+        f"{100.0 * noise.setup_relative:.2g} % of it"
+        if noise.setup_relative
+        else f"{noise.setup_absolute:.2g} {unit_of(given.quantity)}".rstrip()
+    )
+    text = f"set-ups differ: the error that readings of one set-up share was estimated as about {size}"
+    return [finding("setup_error_estimated", text)]
 
 
 def _drift_notes(search: Search) -> list[Finding]:
