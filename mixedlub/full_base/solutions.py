@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
 from functools import cache, partial
 from pathlib import Path
 
@@ -49,9 +49,10 @@ class Matter:
     @property
     def digest(self) -> str:
         """Hash of every number and of the code that affects a solution."""
-        found = hashlib.sha256(f"{solver_fingerprint()}{self.bodies}{self.thermal}".encode())
-        for values in of_oil(from_lubricant(self.oil)):
-            found.update(np.ascontiguousarray(values, dtype=float).tobytes())
+        found = hashlib.sha256(f"{solver_fingerprint()}{self.thermal}".encode())
+        numbers = [np.ravel(np.asarray(v, dtype=float)) for v in of_oil(from_lubricant(self.oil))]
+        for value in (*np.concatenate(numbers), *astuple(self.bodies)):
+            found.update(f"{value:.10g},".encode())
         return found.hexdigest()[:24]
 
 
