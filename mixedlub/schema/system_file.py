@@ -302,6 +302,7 @@ class System(RigFile):
         "CONDITION = [LOW, HIGH] or { steps = [...] }, and pairings = [[SURFACE, SURFACE], ...]: what can be set; next "
         "tests stay inside it; left out: inside the recorded range and pairs",
         {},
+        example={"oil_temperature_C": [40.0, 100.0]},
     )
 
 
