@@ -363,7 +363,7 @@ class System(RigFile):
         "CONDITION = [LOW, HIGH] or { steps = [...] }, and pairings = [[SURFACE, SURFACE], ...]: what can be set; next "
         "tests stay inside it; left out: inside the recorded range and pairs",
         {},
-        example={},
+        example={"oil_temperature_C": [40.0, 100.0]},
     )
 
     @field_validator("recording", mode="before")

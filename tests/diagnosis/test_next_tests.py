@@ -60,7 +60,7 @@ def test_a_batch_is_chosen_jointly() -> None:
 
 
 def test_a_place_that_cannot_be_computed_is_not_chosen() -> None:
-    assert chosen_batch(EQUAL, two(np.array([9.0, 1.0]), 0.0), np.array([False, True]), 2) == [1]
+    assert chosen_batch(EQUAL, two(np.array([9.0, 1.0]), 0.0), np.array([False, True]), 2) == [1, 1]
 
 
 def case(make_case: Callable[..., Path], folder: Path, kind: str) -> Case:

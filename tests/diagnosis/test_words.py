@@ -242,7 +242,7 @@ def test_calibration_says_what_is_a_factor_and_what_a_value(complete: Diagnosis)
 
 
 def test_bits_and_nats_are_explained(offset: Diagnosis, unnamed: Diagnosis) -> None:
-    assert "1 bit decides" in advised(offset, 0.5, speed_rpm=1000.0)
+    assert "1 bit decides" in advised(offset, batch_of(0.5))
     assert "A nat is a factor 2.7 in the odds" in told(unnamed)[words.UNNAMED]
 
 
@@ -345,7 +345,7 @@ def test_a_test_beyond_the_recording_says_its_needs(offset: Diagnosis) -> None:
 
 def test_a_settled_answer_has_one_test_that_could_refute_it(offset: Diagnosis) -> None:
     said = advised(offset, batch_of(0.02, settled=True, readings=0))
-    assert "the most likely to refute the answer, against sensor gain" in said
+    assert "it could refute the answer best, in favour of sensor gain" in said
 
 
 def test_no_useful_test_is_said(offset: Diagnosis) -> None:

@@ -65,7 +65,7 @@ def answer(folder: Path) -> dict[str, object]:
     numbers = {
         key: value
         for key, value in told.items()
-        if key not in ("warnings", "findings", "next_tests", "location", "case")
+        if key not in ("warnings", "findings", "next_tests", "next_batch", "tests_beyond", "location", "case")
     }
     with (folder / "predictions.csv").open(encoding="utf-8", newline="") as file:
         rows = [

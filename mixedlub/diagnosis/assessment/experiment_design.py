@@ -217,7 +217,7 @@ def _mixture(log: np.ndarray, weights: np.ndarray) -> np.ndarray:
 
 
 def chosen_batch(weights: np.ndarray, predictions: Sequence[Joint], usable: np.ndarray, size: int) -> list[int]:
-    """Rows of a batch, each adding the most to the joint information of those before it."""
+    """Rows of a batch, each adding the most to the joint information of the rows before; repeated if there are few."""
     # Improbable rivals count in the choice of a test, not in its stated information.
     weights = np.maximum(weights, RIVAL_WEIGHT)
     weights = weights / weights.sum()
@@ -228,7 +228,7 @@ def chosen_batch(weights: np.ndarray, predictions: Sequence[Joint], usable: np.n
         best = int(free[np.argmax(draws.information(weights, free, noise))])
         draws.add(best, noise)
         chosen.append(best)
-        free = free[free != best]
+        free = free[free != best] if free.size > 1 else np.flatnonzero(usable)
     return chosen
 
 

@@ -63,7 +63,8 @@ def _of_batch(d: Diagnosis) -> tuple[str, ...]:
     run = to_run(first.conditions, table)
     if batch.settled:
         rival = next(explanation_words(key.ids) for key, _ in batch.rivals if key != d.posterior.verdict)
-        return (f"{run}: of all single readings, this is the most likely to refute the answer, against {rival}.",)
+        run = run if batch.expected_bits >= USELESS_TEST else f"The test in {BATCH_FILE}"
+        return (f"{run}: it could refute the answer best, in favour of {rival}.",)
     if batch.expected_bits < USELESS_TEST:
         return ("No useful test: no readings at these conditions would decide more.",)
     weak = ("No readings at these conditions would decide much; the best ones are:",)
