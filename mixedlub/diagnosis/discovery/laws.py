@@ -267,7 +267,9 @@ def _offered(
     found: list[tuple[Effect, dict[str, Any], Candidate]] = []
     for c in leaders:
         number = before + len(found) + 1
-        name = f"{NAME}_{number}" if number > 1 or NAME in problem.case.laws else NAME
+        # A law found earlier, and now part of the base model, keeps its id.
+        stem = f"{NAME}{len(problem.case.laws) or ''}"
+        name = f"{stem}_{number}" if number > 1 else stem
         data = law_data(name, c, c.target.column, ranges)
         try:
             law = as_effect(data, columns)
