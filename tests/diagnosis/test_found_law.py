@@ -13,6 +13,7 @@ from mixedlub.api.diagnosis import Answer
 from mixedlub.case.files import case_files
 from mixedlub.case.folder import conditions_for, read_case
 from mixedlub.case.simulation import simulate
+from mixedlub.diagnosis.assessment.answer_checks import answer_warnings
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.report.files import write
 from mixedlub.own_laws import read_law
@@ -82,6 +83,20 @@ def test_a_resonance_is_found_that_the_smooth_discrepancy_cannot_predict(unnamed
     place = next(p for p in law["parameters"] if p["name"] == "b")
     assert place["value"] == pytest.approx(1500.0, rel=0.1)  # of a bell over the logarithm
     assert Answer(unnamed).record["improved"]["model"] == "law"
+
+
+def test_an_effect_that_predicts_worse_than_calibration_is_not_handed_on(offset: Diagnosis) -> None:
+    assert offset.handed_on == "effects"
+    worse = replace(offset, heldout=replace(offset.heldout, after=1.2 * offset.heldout.before))
+    assert worse.handed_on == "calibration"
+    found = Answer(worse).predictions
+    assert found["predicted"].to_numpy() == pytest.approx(found["calibrated"].to_numpy(), rel=1e-12)
+    assert not Answer(worse).improved.system.effects
+    rows, y = offset.search.problem.rows, offset.readings
+    named, wrong = offset.posterior.verdict, np.zeros(y.size, bool)
+    said = answer_warnings(named, worse.heldout, rows, y, y, wrong)
+    assert [one.code for one in said] == ["answer_not_handed_on"]
+    assert not answer_warnings(named, offset.heldout, rows, y, y, wrong)
 
 
 def test_where_nothing_is_missing_or_an_effect_has_a_name_no_law_is_sought(

@@ -218,7 +218,9 @@ def _alike(one: Target, other: Target) -> bool:
 def _on_other_quantities(w: Weighed, search: Search, tried: list[Candidate]) -> list[Candidate]:
     """The form of a fitted law on every other quantity, from the fitted parameters."""
     values = _with_laws(search.problem, {w.effect.id: w.effect}).parameters(w.fit.explanation, w.fit.z)[w.effect.id]
-    own, found, seen = w.candidate.target, [], []
+    own = w.candidate.target
+    found: list[Candidate] = []
+    seen: list[Target] = []
     terms = tuple(replace(t, start={name: float(values[name]) for name in t.start}) for t in w.candidate.terms)
     for target in (c.target for c in tried):
         if target is own or any(target is one for one in seen):
@@ -262,10 +264,12 @@ def _offered(
     kind = problem.case.kind
     columns = _columns(problem.case)
     ranges = {v.text: [float(v.values.min()), float(v.values.max())] for v in every if _has_range(v.text)}
-    found = []
+    found: list[tuple[Effect, dict[str, Any], Candidate]] = []
     for c in leaders:
         number = before + len(found) + 1
-        name = f"{NAME}_{number}" if number > 1 or NAME in problem.case.laws else NAME
+        # A law found earlier, and now part of the base model, keeps its id.
+        stem = f"{NAME}{len(problem.case.laws) or ''}"
+        name = f"{stem}_{number}" if number > 1 else stem
         data = law_data(name, c, c.target.column, ranges)
         try:
             law = as_effect(data, columns)

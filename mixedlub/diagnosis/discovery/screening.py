@@ -172,9 +172,9 @@ def _sums(
         score = evidence[i] + more - 2.0 * np.log(len(terms)) + np.log(SUM_PRIOR)
         kinds: set[str] = set()
         for k in np.argsort(-score, kind="stable"):
-            kind = f"{terms[k].shape} {terms[k].variables}"
-            if kind not in kinds:
-                kinds.add(kind)
+            own_kind = f"{terms[k].shape} {terms[k].variables}"
+            if own_kind not in kinds:
+                kinds.add(own_kind)
                 both = (terms[i].numbered(1), terms[k].numbered(2))
                 found.append(Candidate(t, both, (float(amplitude[i]), float(second[k])), float(score[k])))
             if len(kinds) == KEPT_OF_TARGET:
