@@ -17,8 +17,8 @@ from mixedlub.laws.state_friction import held_weights, with_rate_and_state
         Parameter(
             "onset",
             "-",
-            Uniform(0.0, 1.0),
-            "instant of a step: 0 at the first reading after it, 1 at the reading before",
+            Uniform(-0.2, 1.2),
+            "instant of a step: 0 or less at the first reading after it, 1 or more at the reading before",
             symbol="o",
         ),
     ),

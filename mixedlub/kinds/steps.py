@@ -60,7 +60,7 @@ def held_speeds(table: Table, recorded: Table, name: str, sliding: float) -> Hel
     of_rows = _part_of(table, recorded, parts)
     programmes = [_programme(recorded.take(np.flatnonzero(parts == part)), name, sliding) for part in np.unique(parts)]
     most = max(len(begins) for begins, *_ in programmes)
-    if any(one is None for one in programmes) or not 1 < most <= MOST:
+    if not 1 < most <= MOST:
         return None
     shape = (len(table), most)
     speed, slips = np.ones(shape), np.zeros((2, *shape))
@@ -79,7 +79,7 @@ def held_speeds(table: Table, recorded: Table, name: str, sliding: float) -> Hel
 
 
 def _part_of(table: Table, recorded: Table, parts: np.ndarray) -> np.ndarray:
-    """Stretch of the recording to which each row of a table belongs: that of its set-up, else of the nearest time."""
+    """Stretch of the recording to which each row of a table belongs: that of its set-up, else of the nearest run."""
     names = recorded["setup"] if "setup" in recorded and "setup" in table else None
     if parts[-1] == 0:
         return np.zeros(len(table), int)
@@ -88,7 +88,7 @@ def _part_of(table: Table, recorded: Table, parts: np.ndarray) -> np.ndarray:
         return np.array([first.get(name, 0) for name in table["setup"]])
     if table is recorded:
         return parts
-    return parts[np.abs(table["run"][:, None] - recorded["run"]).argmin(axis=1)] if "run" in table else parts[:1]
+    return parts[np.abs(table["run"][:, None] - recorded["run"]).argmin(axis=1)]
 
 
 def _programme(rows: Table, name: str, sliding: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

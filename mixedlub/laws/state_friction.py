@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-ENDS = 0.2
-"""Judgement. Widening of the instant of a step: a logger that holds the last value has it at either end."""
 LEAST_SPEED = 1e-9
 """Definition. Least speed over the first one: a contact that rolls without sliding."""
 LEAST_FRICTION = 1e-3
@@ -17,13 +15,13 @@ def held_weights(slip: np.ndarray, early: np.ndarray, slip_length: float, onset:
 
     .. math:: w_k = e^{-s_{k+1}/D_c} - e^{-s_k/D_c}
 
-    The first speed was held for ever before, and the last one has not ended. Solution of both laws of A. Ruina, J.
-    Geophys. Res. 88 (1983) 10359, for speeds held one after the other.
+    The first speed was held for ever before, and the last one has not ended. ``onset``: place between the
+    slips, 0 to 1. Solution of both laws of A. Ruina, J. Geophys. Res. 88 (1983) 10359, for speeds held in turn.
 
     >>> held_weights(np.array([[9.0, 2e-5]]), np.array([[9.0, 2e-5]]), 2e-5, 0.0).round(3).tolist()
     [[0.368, 0.632]]
     """
-    part = min(max(onset + ENDS * (2.0 * onset - 1.0), 0.0), 1.0)
+    part = min(max(onset, 0.0), 1.0)
     since = np.maximum((1.0 - part) * slip + part * early, 0.0)
     left = np.atleast_1d(np.exp(-since / slip_length))
     left = np.concatenate([np.zeros_like(left[..., :1]), left[..., 1:], np.ones_like(left[..., :1])], axis=-1)

@@ -102,8 +102,13 @@ def test_effects(answer: tuple[Diagnosis, dict[str, Any]]) -> None:
         assert e["equation"]
         assert [p["name"] for p in e["parameters"]] == [p.name for p in catalogue()[e["id"]].parameters]
         for p in e["parameters"]:
-            assert set(p) == {"name", "unit", "value", "low90", "high90"}
+            whole = p.get("absolute")
+            assert set(p) - {"absolute"} == {"name", "unit", "value", "low90", "high90"}
             assert p["low90"] <= p["value"] <= p["high90"]
+            if whole is not None and p["value"]:
+                size = whole["value"] / p["value"]
+                assert whole["low90"] == pytest.approx(size * p["low90"])
+                assert whole["high90"] == pytest.approx(size * p["high90"])
 
 
 def test_calibration(answer: tuple[Diagnosis, dict[str, Any]]) -> None:
