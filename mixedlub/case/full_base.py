@@ -45,7 +45,7 @@ def refuse(kind: Kind, system: system_file.System, rig: Rig, tables: Sequence[Ta
 def full_base(
     kind: Kind, system: system_file.System, rig: Rig, tables: Sequence[Table], chain: Chain, inputs: Mapping[str, Any]
 ) -> Base:
-    """Full solutions as the base in place of a chain; ``tables``: rows whose contacts the emulator covers."""
+    """Full solutions as the base in place of a chain; ``tables``: rows covered by the emulator."""
     sds = {name: getattr(system.uncertainty, name) for name in FACTORS}
     box = with_factors(union(_range(chain, kind.inputs(system, rig, t, tables[0])) for t in tables), sds)
     found, built = emulator(matter_of(rig.oil(), inputs), box)

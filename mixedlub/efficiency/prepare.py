@@ -18,8 +18,8 @@ from mixedlub.study.origins import losing
 from mixedlub.study.schema import Options, Pairings, StudyFile
 from profiles.errors import InputError
 
-UNREAD = ("bands", "conditions_of", "averaging")
-"""Study options without use in a stage."""
+UNREAD = ("base", "bands", "conditions_of", "averaging")
+"""Study options without use in a stage, which takes the formulas as base."""
 SHARED = ("boundary_friction", "gears", "lubricant", "options", "effects")
 """Tables common to a stage and a study."""
 

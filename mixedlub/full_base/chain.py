@@ -108,7 +108,7 @@ NEEDED = {
     "eyring_stress_MPa": "Eyring stress",
     "pressure_viscosity_per_GPa": "pressure-viscosity coefficient",
 }
-"""Keys that an oil must state."""
+"""Keys that an oil must have for solutions."""
 THERMAL = ("density_15C_kg_m3", "thermal_conductivity_W_mK", "specific_heat_J_kgK")
 """Keys of an oil that may be typical of a stated base stock."""
 

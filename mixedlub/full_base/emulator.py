@@ -137,7 +137,7 @@ class Emulator:
 
     @property
     def valid(self) -> dict[str, tuple[float, float]]:
-        """Range of the contacts: sliding below its lower end is no extrapolation."""
+        """Range of the contacts; sliding has no lower end."""
         found = {name: self.box[name] for name in CONDITIONS}
         return {
             **found,
@@ -185,7 +185,7 @@ def features(
     """Logarithms in which the ratios are smooth, on a last axis.
 
     Moes' load parameter, Hertz pressure, heat of the inlet, viscosity, slide-to-roll ratio; rise of the viscosity under
-    pressure, Newtonian over Eyring stress, and softening of the film by its heat and by the heat of the walls, all by
+    pressure, Newtonian over Eyring stress, and softening of the film by heat of film and walls, all by
     the laws of the formulas at the film of the film law. Bodies of one material have the flash temperature of steel but
     for a factor.
     """

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 SCALES, NUGGETS = (0.1, 50.0), (1e-8, 0.1)
-"""Cost limit. Length scales on the unit cube that are tried, and variances of scatter over variances of the process."""
+"""Cost limit. Length scales on the unit cube, and ratios of the variance of scatter to the process, for the search."""
 STEPS = 60
 """Cost limit. Iterations of the search for length scales."""
 DISTINCT = 1e-3

@@ -21,8 +21,8 @@ from mixedlub.rig import lubricant
 from mixedlub.rig.lubricant import Lubricant
 
 LEAST_LOAD = 1.5
-"""Judgement. Moes' load parameter M of the least flattened contact that is solved: below, the film carries the load
-over an area wider than Hertz' contact."""
+"""Judgement. Moes' load parameter M of the least flattened contact that is solved: below, the film is wider than the
+contact of Hertz."""
 CANDIDATES = 8
 """Cost limit. Contacts drawn per contact that is solved."""
 KEPT = ("central_film", "friction_coefficient", "central_film_error", "friction_coefficient_error", "status")

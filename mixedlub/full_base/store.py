@@ -35,8 +35,8 @@ def cache_folder() -> Path:
 def emulator(matter: Matter, needed: Box, count: int | None = None) -> tuple[Emulator, bool]:
     """Emulator that covers a range, and whether it was built now; ``count``: solutions, by default enough.
 
-    A kept emulator whose range contains the needed one is reused, the smallest first. Solutions are kept in parts: an
-    interrupted run resumes, and another version of the emulator is fitted to them.
+    A kept emulator over a range that contains the needed one is reused, the smallest first. Solutions are kept in
+    parts: an interrupted run resumes, and another version of the emulator is fitted to them.
     """
     folder = cache_folder() / "full_solutions" / matter.digest
     every = (_kept(path) for path in sorted(folder.glob(f"*-{fit_fingerprint()}.npz")))

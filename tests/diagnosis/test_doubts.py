@@ -116,7 +116,7 @@ def test_a_channel_that_was_kept_back_is_no_condition(make) -> None:
 @pytest.mark.parametrize(("after", "told"), [(2.9, False), (12.93, True)])
 def test_levels_that_the_answer_does_not_foretell_are_told_of(offset: Diagnosis, after: float, told: bool) -> None:
     rows, predicted = offset.recorded.table, offset.recorded.predicted
-    kept = replace(offset.heldout, after=after)
+    kept = replace(offset.heldout, before=20.0, after=after)
     right = np.zeros(len(rows), bool)
     said = answer_warnings(offset.posterior.verdict, kept, rows, offset.readings, predicted, right)
     assert ("answer_predicts_poorly" in codes(said)) == told

@@ -13,6 +13,7 @@ import pytest
 from mixedlub.case.folder import case_of
 from mixedlub.case.forward import Forward
 from mixedlub.case.simulation import simulate
+from mixedlub.report.laws import laws_used
 from mixedlub.schema.findings import collected
 from mixedlub.schema.table import Table
 from mixedlub.study import read_study, run_study
@@ -60,6 +61,7 @@ def test_smooth_discs_have_the_friction_of_the_emulator(cache: Path) -> None:
     assert ((friction[:3] > 0.2 * formulas[:3]) & (friction[:3] < 0.95 * formulas[:3])).all()
     assert friction[3] < 1e-6
     assert [one.code for one in forward.notes].count("full_base") == 1
+    assert "full thermal, non-Newtonian solutions" in case.base_model
 
 
 def test_calibration_moves_the_oil_of_the_film_and_the_errors_of_the_emulator(cache: Path) -> None:
@@ -131,6 +133,8 @@ def test_a_study_runs_in_less_than_a_second_with_a_kept_emulator(cache: Path, fu
     ratio = results["film_thickness"] / formulas["film_thickness"]
     assert 0.6 < ratio.min() < ratio.max() < 0.95
     assert {"full_base"} <= {one.code for one in results.findings}
+    said = {law.gives: law.says for law in laws_used(results.study.plan.model())}
+    assert "full thermal, non-Newtonian solutions" in said["film ratio"]
 
 
 def test_film_and_asperities_share_the_load_with_the_solved_film(cache: Path, full_study: Callable[..., Path]) -> None:

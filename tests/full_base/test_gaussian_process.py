@@ -7,6 +7,7 @@ from mixedlub.full_base import gaussian_process
 from mixedlub.full_base.gaussian_process import covariance, fit, quadratic
 
 POINTS = np.random.default_rng(1).uniform(-1.0, 1.0, (80, 3))
+TERMS = quadratic(POINTS)
 VALUES = np.sin(2.0 * POINTS[:, 0]) * np.exp(0.5 * POINTS[:, 1]) + 0.2 * POINTS[:, 2]
 
 
@@ -18,16 +19,25 @@ def test_it_finds_a_smooth_function() -> None:
 
 
 def test_a_quadratic_is_exact() -> None:
-    terms = quadratic(POINTS) @ np.arange(1.0, 11.0)
-    assert fit(POINTS, terms)(POINTS[:5] * 0.5) == pytest.approx(quadratic(POINTS[:5] * 0.5) @ np.arange(1.0, 11.0))
+    found = fit(POINTS, TERMS @ np.arange(1.0, 11.0))
+    assert found(POINTS[:5] * 0.5) == pytest.approx(quadratic(POINTS[:5] * 0.5) @ np.arange(1.0, 11.0))
+
+
+def test_features_that_depend_on_each_other_have_a_bounded_trend() -> None:
+    """Values follow from the first two features alone; the third is their sum."""
+    twins = np.column_stack([POINTS[:, :2], 0.5 * (POINTS[:, 0] + POINTS[:, 1])])
+    found = fit(twins, np.sin(twins[:, 0]) + twins[:, 1] ** 2)
+    moved = np.array([[0.3, 0.2, 0.25], [0.3, 0.2, 0.3]])
+    assert found(moved)[0] == pytest.approx(np.sin(0.3) + 0.04, abs=1e-3)
+    assert abs(found(moved)[1] - found(moved)[0]) < 0.1
 
 
 def test_slopes_of_the_likelihood_are_its_differences() -> None:
     log = np.log(np.array([0.8, 1.2, 2.0, 1e-3]))
-    _, slopes = gaussian_process._loss(log, POINTS, VALUES)
+    _, slopes = gaussian_process._loss(log, POINTS, TERMS, VALUES)
     for place in range(4):
         step = 1e-5 * np.eye(4)[place]
-        up, down = (gaussian_process._loss(log + sign * step, POINTS, VALUES)[0] for sign in (1.0, -1.0))
+        up, down = (gaussian_process._loss(log + sign * step, POINTS, TERMS, VALUES)[0] for sign in (1.0, -1.0))
         assert slopes[place] == pytest.approx((up - down) / 2e-5, rel=1e-4)
 
 
@@ -35,7 +45,7 @@ def test_errors_of_left_out_points_are_those_of_a_process_without_them() -> None
     found = fit(POINTS, VALUES)
     nugget = 1e-5
     whole = covariance(POINTS, POINTS, found.scales) + nugget * np.eye(80)
-    inverse, mean, _ = gaussian_process._solved(whole[1:, 1:], quadratic(POINTS[1:]), VALUES[1:])
+    inverse, mean, _ = gaussian_process.solved(whole[1:, 1:], quadratic(POINTS[1:]), VALUES[1:])
     there = quadratic(POINTS[:1]) @ mean + covariance(POINTS[:1], POINTS[1:], found.scales) @ (inverse @ VALUES[1:])
-    own, _, _ = gaussian_process._solved(whole, quadratic(POINTS), VALUES)
+    own, _, _ = gaussian_process.solved(whole, quadratic(POINTS), VALUES)
     assert (own @ VALUES)[0] / own[0, 0] == pytest.approx(VALUES[0] - there[0], rel=1e-3)
