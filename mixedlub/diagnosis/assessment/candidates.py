@@ -76,7 +76,8 @@ def _levels(case: Case, rows: Table, column: Column, varied: Collection[str] | N
     if name in PASSING:
         return _thinned(levels, TEST_LEVELS)
     low, high = case.kind.column_limits(case.system).get(name, (-np.inf, np.inf))
-    levels = levels[(levels >= low) & (levels <= high)]
+    possible = levels[(levels >= low) & (levels <= high)]
+    levels = possible if possible.size else levels
     rows_there = tabulated(case.system, case.rig).get(name)
     if rows_there is not None:
         there = rows_there[(rows_there >= levels[0]) & (rows_there <= levels[-1])]
