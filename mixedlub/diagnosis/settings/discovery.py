@@ -56,5 +56,5 @@ LISTED_BEHIND, RIVALS = 30.0, 8
 EQUIVALENT_WITHIN = 0.1
 """Judgement. Ratio less one of the errors on left-out levels of laws that cannot be told apart."""
 MOST_EXCESS = 0.5
-"""Judgement. Largest excess of the squared error on left-out levels over noise with a law, as a share of the excess with
-calibration alone: a law explains at least half of the mismatch."""
+"""Judgement. Largest excess of the squared error on left-out levels over noise with a law, as a share of the excess
+with calibration alone: a law explains at least half of the mismatch."""
