@@ -116,10 +116,10 @@ class LevelsOut:
     """Residuals and prediction variance of the explanations tried so far."""
 
     @classmethod
-    def of(cls, search: Search) -> LevelsOut:
-        """Folds over the levels of the condition with most levels (up to 8)."""
+    def of(cls, search: Search, only: str = "") -> LevelsOut:
+        """Folds over the levels of the condition with most levels (up to 8), or of the ``only`` condition."""
         screened = search.full_screen
-        name, label = _folds(screened)
+        name, label = _folds(screened, only)
         folds, before = [], np.zeros(screened.problem.y.size)
         for k in range(int(label.max()) + 1):
             out = label == k
@@ -212,14 +212,14 @@ def _discrepancy_residuals(search: Search, forms: list[np.ndarray], out: np.ndar
     return mean, chance @ (np.array(variance) + (np.array(residuals) - mean) ** 2)
 
 
-def _folds(search: Search) -> tuple[str, np.ndarray]:
-    """The condition with most levels, and the level of every reading.
+def _folds(search: Search, only: str = "") -> tuple[str, np.ndarray]:
+    """The condition with most levels, or the ``only`` one, and the level of every reading.
 
     Conditions of a narrow span come last, because a noisy constant has levels too; ties go to the widest.
     """
     best: tuple[bool, int, float, str, np.ndarray] | None = None
     for axis, values in zip(search.space.axes, search.values, strict=True):
-        if axis.name in ("sequence", "composite_roughness_um"):
+        if axis.name in ("sequence", "composite_roughness_um") or (only and axis.name != only):
             continue
         values = set_points(values)
         levels, label = np.unique(values, return_inverse=True)

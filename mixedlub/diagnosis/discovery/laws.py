@@ -30,8 +30,8 @@ from mixedlub.diagnosis.settings.discovery import (
     FIT_GAIN,
     FORMS_ELSEWHERE,
     FORMS_FITTED,
-    LEAST_GAIN,
     LISTED_BEHIND,
+    MOST_EXCESS,
     PROVED,
     RIVALS,
     SAME_WITHIN,
@@ -138,7 +138,7 @@ def find_law(search: Search, levels: LevelsOut) -> FoundLaw | None:
     }
     # Evidence decides between laws; the error on left-out levels decides whether one is a law at all.
     best = next((w for w in weighed if w.effect.id in held and _is_better(held[w.effect.id])), None)
-    if best is None:
+    if best is None or not _holds_along_its_conditions(best, search, levels.name, own, laws):
         return None
     kept, single = held[best.effect.id], search.problem.n_per_effective
     near = [w for w in weighed if w is not best and w.log_weight > best.log_weight - LISTED_BEHIND][:RIVALS]
@@ -171,8 +171,25 @@ def _by_weight(w: Weighed) -> float:
 
 
 def _is_better(kept: HeldOut) -> bool:
-    """Whether a law predicts left-out levels clearly better than calibration alone."""
-    return kept.after <= LEAST_GAIN * kept.before and kept.score > kept.score_before + CHANCE_GAIN
+    """Whether a law predicts left-out levels clearly better than calibration alone, most of the mismatch included."""
+    excess = kept.after**2 - 1.0 <= MOST_EXCESS * (kept.before**2 - 1.0)
+    return excess and kept.after < kept.before and kept.score > kept.score_before + CHANCE_GAIN
+
+
+def _holds_along_its_conditions(
+    w: Weighed, search: Search, proved: str, problem: Problem, laws: Mapping[str, Effect]
+) -> bool:
+    """Whether a law also predicts left-out levels of each condition that it reads, where there are enough levels."""
+    read = {name for term in w.candidate.terms for name in term.variables}
+    names = [axis.name for axis in search.space.axes if axis.name in read - {proved} and not axis.named]
+    for name in names:
+        levels = LevelsOut.of(search, name)
+        if levels.name == name:
+            proof = _levels_with(levels, problem, laws, {w.fit.explanation: w.fit})
+            kept = proof.held(w.fit.explanation, outlier_chance(w.fit.residual) > LIKELY)
+            if kept.after >= kept.before:
+                return False
+    return True
 
 
 def _rival(w: Weighed, best: Weighed, held: Mapping[str, HeldOut], single: float) -> Rival:

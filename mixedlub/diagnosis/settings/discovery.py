@@ -55,5 +55,6 @@ LISTED_BEHIND, RIVALS = 30.0, 8
 """Judgement. Log evidence behind a law up to which rivals are listed, and their number: more are not read."""
 EQUIVALENT_WITHIN = 0.1
 """Judgement. Ratio less one of the errors on left-out levels of laws that cannot be told apart."""
-LEAST_GAIN = 0.9
-"""Judgement. Largest ratio of the errors on left-out levels with a law and with calibration alone: clearly better."""
+MOST_EXCESS = 0.5
+"""Judgement. Largest excess of the squared error on left-out levels over noise with a law, as a share of the excess
+with calibration alone: a law explains at least half of the mismatch."""
