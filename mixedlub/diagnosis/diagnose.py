@@ -185,7 +185,7 @@ class Diagnosis:
 
     @property
     def outlier_runs(self) -> list[int]:
-        """Runs that are more probably outliers than not, those of a faulty channel included."""
+        """Runs that are more probably outliers than not, with the runs of a faulty channel."""
         wrong = self.search.problem.rows["run"][self.outlier_chance > LIKELY].tolist()
         faulty = [] if self.faulty is None else self.faulty.table["run"].tolist()
         return sorted(int(r) for r in (*wrong, *faulty))

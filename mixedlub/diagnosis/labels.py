@@ -28,7 +28,7 @@ STAGE_WORDS = {
 
 
 def in_units_of_case(function: Callable[Concatenate[Any, P], R]) -> Callable[Concatenate[Any, P], R]:
-    """Function of a diagnosis, whose labels have the units that its case states."""
+    """Function of a diagnosis with labels in the units of the case."""
 
     @wraps(function)
     def labelled(d: Any, *args: P.args, **kwargs: P.kwargs) -> R:
