@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.diagnosis.discrepancy.waves import is_explained_by, stepped_levels
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.assessment import COLLINEAR, VARIED_FROM
 from mixedlub.diagnosis.settings.discovery import (
@@ -22,6 +23,7 @@ from mixedlub.diagnosis.settings.discovery import (
     WIDTH_MEDIAN,
     WIDTH_SPREAD,
 )
+from mixedlub.recording.conditions import PASSING
 from mixedlub.recording.set_points import set_points
 
 GROUPS = (
@@ -116,7 +118,9 @@ def variables(search: Search) -> list[Variable]:
     found: list[Variable] = []
     swept = [axis.name for axis in search.space.axes if not axis.named]
     for name in swept:
-        if name in rows:
+        # Time by another name: a condition that was stepped up once through the programme.
+        others = stepped_levels(search.values, search.space.place(name)) if name in PASSING else []
+        if name in rows and not any(is_explained_by(np.asarray(rows[name], float)[:, None], one) for one in others):
             _add(found, Variable(name, np.asarray(rows[name], float)))
     if any(v.values.min() < 0.0 < v.values.max() for v in found):
         found += [Variable(f"abs({v.text})", np.abs(v.values)) for v in found if v.values.min() < 0.0]
