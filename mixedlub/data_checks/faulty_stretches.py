@@ -98,7 +98,7 @@ def noise_of(series: np.ndarray) -> float:
     >>> round(noise_of(np.array([1.0, 1.2, 1.0, 1.2, 1.0, 9.0, 1.0])), 2)
     0.21
     """
-    return 1.4826 * float(np.median(np.abs(np.diff(series)))) / np.sqrt(2.0)
+    return float(1.4826 * np.median(np.abs(np.diff(series))) / np.sqrt(2.0))
 
 
 def _impossible(quantity: str, y: np.ndarray, order: np.ndarray) -> list[Fault]:
