@@ -162,14 +162,15 @@ def answer_warnings(
             f"{heldout.after:.2f} sigma), so predictions and the improved model are of calibration alone"
         )
         warnings.append(finding("answer_not_handed_on", text))
-    elif verdict != NOTHING and not at_one_place and heldout.score < heldout.score_before:
+    not_predictive = heldout.score < heldout.score_before
+    if verdict != NOTHING and not at_one_place and not_predictive and heldout.after <= heldout.before:
         answer = "the unnamed mismatch" if verdict == DISCREPANCY else "the answer"
         text = (
             f"{answer} predicts left-out levels no better than calibration alone: outside the recorded conditions rely "
             "on neither"
         )
         warnings.append(finding("answer_not_predictive", text))
-    elif verdict != NOTHING and not at_one_place and heldout.after > POOR_PREDICTION:
+    elif verdict != NOTHING and not at_one_place and not not_predictive and heldout.after > POOR_PREDICTION:
         error = f"rms {heldout.after:.3g} sigma, 1 expected"
         text = f"the answer predicts left-out levels poorly ({error}): do not extrapolate"
         warnings.append(finding("answer_predicts_poorly", text))
