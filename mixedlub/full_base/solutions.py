@@ -143,8 +143,8 @@ def _rows(matter: Matter, contacts: Contacts) -> Rows:
 def scaled(of: Lubricant, factors: np.ndarray) -> Oil:
     """Oil of the solver with factors on its properties; the scaled density takes the viscosity along.
 
-    >>> import mixedlub as ml
-    >>> oil = ml.rig.lubricant(ml.schema.system_file.Lubricant(oil="pao4"))
+    >>> known = (313.15, 373.15), (23e-6, 4.9e-6), (15e-9, 11e-9)
+    >>> oil = Lubricant("ester", *known, 995.0, 8e-4, 5e6, 0.14, 2e3)
     >>> cold = np.array(313.15)
     >>> both = scaled(oil, np.array([1.2, 1.0, 1.0])), scaled(oil, np.ones(3))
     >>> round(float(both[0].at_ambient(cold)[0] / both[1].at_ambient(cold)[0]), 12)
