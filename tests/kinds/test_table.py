@@ -10,7 +10,7 @@ from mixedlub.case.folder import case_of, read_case
 from mixedlub.case.forward import Forward
 from mixedlub.case.simulation import simulate
 from mixedlub.cli import main
-from mixedlub.diagnosis.assessment.experiment_design import candidates
+from mixedlub.diagnosis.assessment import candidates
 from mixedlub.diagnosis.labels import axis_label
 from mixedlub.recording.conditions import raw_coordinates
 from mixedlub.schema.units import stated_units
@@ -91,7 +91,7 @@ def test_a_stated_unit_stands_on_axes(tmp_path):
 def test_suggested_conditions_have_an_interpolated_simulation(tmp_path):
     case = read_case(written(tmp_path))
     columns = [c for c in case.kind.columns if c.name in case.recordings]
-    wanted = candidates(case.recordings, columns)
+    wanted = candidates.inside(case, case.recordings, columns, {c.name for c in columns})
     simulated = Forward(case, wanted).base_prediction()
     names = np.array([str(g) == "A" for g in wanted["grease"]])
     exact = 2.0 + 3.0 * wanted["preload"] + 0.02 * wanted["oil_temperature_C"] * names
