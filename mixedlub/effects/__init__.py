@@ -41,7 +41,7 @@ def find(
     An unknown id raises an error that names the nearest and the place ``where``.
     """
     names = (ids,) if isinstance(ids, str) else ids
-    return tuple(laws[name] if name in laws else EFFECTS.find(name, where) for name in names)
+    return tuple(laws[one] if isinstance(one, str) and one in laws else EFFECTS.find(one, where) for one in names)
 
 
 def page(effect_id: str) -> Effect:

@@ -153,8 +153,8 @@ class _Names(Collection[str]):
 def _read(name: str, columns: Collection[str]) -> Read | None:
     """How a name is read: a quantity in SI, a column as recorded, or a quantity in the unit behind its name.
 
-    >>> _read("load", ()), _read("speed_rpm", ()).argument, _read("oil_temperature_C", ()).added, _read("lod_N", ())
-    (Read(argument='load', factor=1.0, added=0.0), 'pinion_speed', 273.15, None)
+    >>> _read("load", ()), _read("speed_rpm", ()).argument, round(_read("oil_temperature_C", ()).added, 2)
+    (Read(argument='load', factor=1.0, added=0.0), 'pinion_speed', 273.15)
     """
     if name in GLOSSARY or name in columns:
         return Read(name)

@@ -24,7 +24,7 @@ def json_schema(name: str) -> dict[str, Any]:
     """Schema of a kind of case, or of the file of a command or evaluation.
 
     >>> sorted(json_schema("viscosity")["properties"])[:4]
-    ['boundary_friction', 'calibration', 'description', 'effects']
+    ['base', 'boundary_friction', 'calibration', 'description']
     """
     if name not in (*KINDS, *FILES) and name not in EVALUATIONS:
         raise InputError(f"no such file; {nearest(name, (*KINDS, *FILES, *EVALUATIONS))}", where="KIND", value=name)

@@ -310,8 +310,8 @@ FORMS = {
 def to_si(unit: str) -> tuple[float, float]:
     """Factor and offset from a written unit to SI; KeyError if unknown.
 
-    >>> to_si("N mm"), to_si("Nm"), to_si("°C"), to_si("W/(m K)")
-    ((0.001, 0.0), (1.0, 0.0), (1.0, 273.15), (1.0, 0.0))
+    >>> [tuple(round(x, 6) for x in to_si(unit)) for unit in ("N mm", "Nm", "°C", "W/(m K)")]
+    [(0.001, 0.0), (1.0, 0.0), (1.0, 273.15), (1.0, 0.0)]
     """
     written = tidy(unit)
     try:

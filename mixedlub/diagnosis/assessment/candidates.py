@@ -45,8 +45,8 @@ def _thinned(levels: np.ndarray, most: int) -> np.ndarray:
 def _with_between(levels: np.ndarray) -> np.ndarray:
     """Levels, and one in the middle of each two neighbours, rounded.
 
-    >>> _with_between(np.array([40.0, 60.0, 100.0])).tolist(), _with_between(np.array([1.0, 10.0])).tolist()
-    ([40.0, 50.0, 60.0, 80.0, 100.0], [1.0, 3.16, 10.0])
+    >>> [_with_between(np.array(levels)).round(2).tolist() for levels in ([40.0, 60.0, 100.0], [1.0, 10.0])]
+    [[40.0, 50.0, 60.0, 80.0, 100.0], [1.0, 3.16, 10.0]]
     """
     low, high = levels[:-1], levels[1:]
     wide = low[0] > 0.0 and levels[-1] > WIDE_RATIO * low[0] if levels.size > 1 else False
