@@ -58,6 +58,7 @@ from mixedlub.diagnosis.labels import effect_words
 from mixedlub.diagnosis.search.noise_selection import search_under_noise
 from mixedlub.diagnosis.search.search import Progress, Search
 from mixedlub.diagnosis.settings.assessment import FALSE_ALARM_RATE, LEVELS
+from mixedlub.diagnosis.settings.discovery import EQUIVALENT_WITHIN
 from mixedlub.diagnosis.settings.inference import LIKELY
 from mixedlub.effects import find
 from mixedlub.recording.readings import readings_of, rows_of
@@ -137,14 +138,19 @@ class Diagnosis:
 
     @property
     def handed_on(self) -> str:
-        """The model in `improved` and in the predictions: of the answer and calibration alone, the better predictor of
-        left-out levels. A discrepancy is handed on as a law or as a table.
+        """The model in `improved` and in the predictions: the answer, or calibration alone where it predicts left-out
+        levels better.
+
+        A discrepancy is handed on as a law, or as a table without a law or where it predicts left-out levels clearly
+        better: a law can be run anywhere.
         """
         verdict = self.posterior.verdict
         errors = {CALIBRATION: self.heldout.before}
         if verdict.is_discrepancy:
-            errors |= {} if self.law is None else {LAW: self.law.heldout.after}
-            errors |= {TABLE: self.heldout.after}
+            smooth = self.heldout.after
+            if self.law is not None and self.law.heldout.after <= (1.0 + EQUIVALENT_WITHIN) * smooth:
+                return LAW
+            errors |= {TABLE: smooth} if self.law is None else {LAW: self.law.heldout.after, TABLE: smooth}
         elif verdict != NOTHING:
             errors |= {EFFECTS: self.heldout.after}
         return min(errors, key=errors.__getitem__)
