@@ -76,14 +76,11 @@ def posterior(
         log |= {key: log[key] + shift for key in names}
     if test.unexplained_scatter and log[NOTHING] > log[DISCREPANCY]:
         log[NOTHING], log[DISCREPANCY] = log[DISCREPANCY], log[NOTHING]
-    expected = set(search.prior_odds.expected)
-    usual = [key for key in log if expected.issuperset(key.effects) and not key.is_discrepancy]
-    # What mechanics demands needs no mismatch to be believed.
-    others = [key for key in log if key not in (usual, [NOTHING])[test.detected]]
-    best = max((log[key] for key in others), default=-np.inf)
+    others = [value for key, value in log.items() if key != NOTHING]
+    best = max(others, default=-np.inf)
     if test.detected and log[NOTHING] >= best:
         log[NOTHING] = best - np.log(TEST_MARGIN)
-    elif not test.detected and max(log[key] for key in usual) <= best:
+    elif not test.detected and log[NOTHING] <= best:
         log[NOTHING] = best + np.log(TEST_MARGIN)
     top = max(log.values())
     total = sum(np.exp(v - top) for v in log.values())
