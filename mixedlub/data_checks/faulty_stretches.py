@@ -8,6 +8,7 @@ import numpy as np
 
 from mixedlub.case.folder import Case
 from mixedlub.recording.conditions import PASSING, clock_of
+from mixedlub.recording.noise import successive_difference_sd
 from mixedlub.recording.readings import readings_of, rows_of
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.table import Table
@@ -55,15 +56,19 @@ def set_aside(case: Case) -> tuple[Case, Table | None, tuple[Finding, ...]]:
     faulty = np.zeros(len(rows), bool)
     for one in found:
         faulty[one.rows] = True
-    return replace(case, recordings=rows.take(~faulty)), rows.take(faulty), faulty_stretches(case)
+    return replace(case, recordings=rows.take(~faulty)), rows.take(faulty), _told(rows, found)
 
 
 def faulty_stretches(case: Case) -> tuple[Finding, ...]:
     """A finding on each faulty stretch."""
-    runs = rows_of(case)["run"]
+    return _told(rows_of(case), faults(case))
+
+
+def _told(rows: Table, found: list[Fault]) -> tuple[Finding, ...]:
+    runs = rows["run"]
     return tuple(
         finding("channel_faulty", f"{one.text}: one fault of the instrument, all of its readings are left out", place)
-        for one in faults(case)
+        for one in found
         for place in [f"run {runs[one.rows[0]]} to run {runs[one.rows[-1]]}"]
     )
 
@@ -92,21 +97,12 @@ def faults(case: Case) -> list[Fault]:
     return sorted(kept, key=lambda fault: int(place[fault.rows[0]]))
 
 
-def noise_of(series: np.ndarray) -> float:
-    """Noise of a series from its successive differences, whatever its slow course and a few wild readings.
-
-    >>> round(noise_of(np.array([1.0, 1.2, 1.0, 1.2, 1.0, 9.0, 1.0])), 2)
-    0.21
-    """
-    return float(1.4826 * np.median(np.abs(np.diff(series))) / np.sqrt(2.0))
-
-
 def _impossible(quantity: str, y: np.ndarray, order: np.ndarray) -> list[Fault]:
     """Stretches in which most readings are of the wrong sign, zero, or far too large."""
     series = y[order]
     usual = float(np.median(series))
     positive = series[series > 0.0]
-    noise = noise_of(positive) if positive.size > FEWEST else np.inf
+    noise = successive_difference_sd(positive) if positive.size > FEWEST else np.inf
     if usual < CLEAR_OF_ZERO * noise:
         return []
     negative = (series < -BELOW * noise) | (series == 0.0)
@@ -163,7 +159,7 @@ def _stuck(case: Case, rows: Table, order: np.ndarray) -> list[Fault]:
     for name in (case.quantity, *conditions):
         series = rows[name][order].astype(float)
         different = np.unique(series)
-        noise = noise_of(series)
+        noise = successive_difference_sd(series)
         if different.size < FEWEST or noise < STEPS_OF_NOISE * float(np.min(np.diff(different))):
             continue
         starts = np.flatnonzero(np.diff(series, prepend=np.nan) != 0.0)

@@ -6,22 +6,30 @@ from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import LogNormal, Uniform
 from mixedlub.laws.state_friction import held_weights, with_rate_and_state
 
+PARAMETERS = (
+    Parameter("direct", "-", LogNormal(0.008, 0.8), "rise of friction per e-fold of speed, at once", 0.0, "a"),
+    Parameter("evolution", "-", LogNormal(0.01, 0.8), "rise of friction per e-fold of the age", 0.0, "b"),
+    Parameter("slip_length", "m", LogNormal(1.5e-5, 1.5), "slip that renews the contacts", None, "D_c", 24),
+    Parameter(
+        "onset",
+        "-",
+        Uniform(-0.2, 1.2),
+        "instant of a step: 0 or less at the first reading after it, 1 or more at the reading before",
+        symbol="o",
+    ),
+)
+"""Parameters of both laws of state."""
+STATES = (
+    *("tribofilm_growth", "friction_run_in", "two_time_scales", "friction_event", "running_in"),
+    *("boundary_film_temperature", "boundary_speed_dependence", "wandering_surface_state"),
+)
+"""Effects that change the friction on which both laws act."""
+
 
 @effect(
     stage="boundary",
     acts_on="boundary_friction",
-    parameters=(
-        Parameter("direct", "-", LogNormal(0.008, 0.8), "rise of friction per e-fold of speed, at once", 0.0, "a"),
-        Parameter("evolution", "-", LogNormal(0.01, 0.8), "rise of friction per e-fold of the age", 0.0, "b"),
-        Parameter("slip_length", "m", LogNormal(1.5e-5, 1.5), "slip that renews the contacts", None, "D_c", 24),
-        Parameter(
-            "onset",
-            "-",
-            Uniform(-0.2, 1.2),
-            "instant of a step: 0 or less at the first reading after it, 1 or more at the reading before",
-            symbol="o",
-        ),
-    ),
+    parameters=PARAMETERS,
     equation=r"\mu_B \leftarrow \mu_B + a\ln\frac{v_s}{v_0} + b\ln\sum_{k=1} w_k\frac{v_0}{v_k},\quad "
     r"w_k = \Delta e^{-x_k/D_c},\quad x_k = (1 - o)s_k + o\,s_o",
     source="J. H. Dieterich, J. Geophys. Res. 84 (1979) 2161: a and b near 0.01, slip of micrometres; its law of "
@@ -29,10 +37,7 @@ from mixedlub.laws.state_friction import held_weights, with_rate_and_state
     fingerprint={"speed": "+"},
     separated_by="steps of speed up and down and a hold: friction jumps the one way at once and relaxes the other way "
     "over the same slip; contacts age at rest too, so that friction after a hold grows with its logarithm",
-    applied_after=(
-        *("tribofilm_growth", "friction_run_in", "two_time_scales", "friction_event", "running_in"),
-        *("boundary_film_temperature", "boundary_speed_dependence", "wandering_surface_state"),
-    ),
+    applied_after=STATES,
     kinds=("friction_history",),
     prior_odds=0.5,
 )

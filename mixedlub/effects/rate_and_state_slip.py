@@ -2,26 +2,15 @@
 
 import numpy as np
 
-from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import LogNormal, Uniform
+from mixedlub.chain.effect import effect
+from mixedlub.effects.rate_and_state import PARAMETERS, STATES
 from mixedlub.laws.state_friction import held_weights, with_rate_and_state
 
 
 @effect(
     stage="boundary",
     acts_on="boundary_friction",
-    parameters=(
-        Parameter("direct", "-", LogNormal(0.008, 0.8), "rise of friction per e-fold of speed, at once", 0.0, "a"),
-        Parameter("evolution", "-", LogNormal(0.01, 0.8), "rise of friction per e-fold of the age", 0.0, "b"),
-        Parameter("slip_length", "m", LogNormal(1.5e-5, 1.5), "slip that renews the contacts", None, "D_c", 24),
-        Parameter(
-            "onset",
-            "-",
-            Uniform(-0.2, 1.2),
-            "instant of a step: 0 or less at the first reading after it, 1 or more at the reading before",
-            symbol="o",
-        ),
-    ),
+    parameters=PARAMETERS,
     equation=r"\mu_B \leftarrow \mu_B + a\ln\frac{v_s}{v_0} + b\sum_{k=1} w_k\ln\frac{v_0}{v_k},\quad "
     r"w_k = \Delta e^{-x_k/D_c},\quad x_k = (1 - o)s_k + o\,s_o",
     source="A. Ruina, J. Geophys. Res. 88 (1983) 10359, its law of slip, solved for speeds v_k held one after the "
@@ -29,10 +18,7 @@ from mixedlub.laws.state_friction import held_weights, with_rate_and_state
     fingerprint={"speed": "+"},
     separated_by="steps of speed up and down and a hold: friction jumps the one way at once and relaxes the other way "
     "over the same slip; contacts do not change at rest, and steps up and down relax over the same slip",
-    applied_after=(
-        *("tribofilm_growth", "friction_run_in", "two_time_scales", "friction_event", "running_in"),
-        *("boundary_film_temperature", "boundary_speed_dependence", "wandering_surface_state", "rate_and_state"),
-    ),
+    applied_after=(*STATES, "rate_and_state"),
     kinds=("friction_history",),
     prior_odds=0.5,
 )

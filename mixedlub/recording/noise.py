@@ -13,6 +13,8 @@ from mixedlub.recording.set_points import near_values
 from mixedlub.schema import system_file
 from mixedlub.schema.table import Table
 
+MAD_TO_SD = 1.4826
+"""Definition. Standard deviation over the median absolute deviation of a normal distribution."""
 KNOWN_FROM = 30
 """Judgement. Tests from which a standard deviation counts as known, with a standard error of 13 %."""
 MARKS_UNUSABLE = 5.0
@@ -305,6 +307,18 @@ def _typical_difference(y: np.ndarray, group: np.ndarray, count: np.ndarray) -> 
     rank = np.argsort(value)
     total = np.cumsum(weight[rank])
     return float(value[rank][np.searchsorted(total, 0.5 * total[-1])])
+
+
+def successive_difference_sd(series: np.ndarray) -> float:
+    """Standard deviation of the white part of a series, from its successive differences.
+
+    >>> noise = np.random.default_rng(1).standard_normal(1000)
+    >>> bool(0.9 < successive_difference_sd(noise + np.linspace(0.0, 50.0, 1000)) < 1.1)
+    True
+    >>> round(successive_difference_sd(np.array([1.0, 1.2, 1.0, 1.2, 1.0, 9.0, 1.0])), 2)
+    0.21
+    """
+    return float(float(np.median(np.abs(np.diff(series)))) * MAD_TO_SD / np.sqrt(2.0))
 
 
 def noise_from_smoothness(y: np.ndarray, base: np.ndarray, space: Coordinates, values: list[np.ndarray]) -> float:

@@ -10,7 +10,8 @@ import numpy as np
 from mixedlub.diagnosis.discrepancy.smooth import DiscrepancyForm
 from mixedlub.diagnosis.inference.map_fit import Linear, linear_fit
 from mixedlub.diagnosis.settings.discrepancy import DEPENDENT, SCREENED_FORMS, SCREENED_SIZE
-from mixedlub.diagnosis.settings.inference import CLIPPED_AT, MAD_TO_SD
+from mixedlub.diagnosis.settings.inference import CLIPPED_AT
+from mixedlub.recording.noise import MAD_TO_SD
 
 
 def clearest(

@@ -27,7 +27,6 @@ from mixedlub.diagnosis.settings.inference import (
     HUBER_BOUND,
     LEAST_DAMPING,
     LONGEST_STEP,
-    MAD_TO_SD,
     MOST_COORDINATE,
     PRECISION_BEHIND,
     PREFIT_TOLERANCE,
@@ -37,6 +36,7 @@ from mixedlub.diagnosis.settings.inference import (
     STEPS_BEFORE_GIVING_UP,
     WEIGHTS_CONVERGED,
 )
+from mixedlub.recording.noise import MAD_TO_SD
 from mixedlub.running.parallel import shared_out
 
 Item = TypeVar("Item")

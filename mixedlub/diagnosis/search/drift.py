@@ -13,7 +13,7 @@ from mixedlub.diagnosis.inference.map_fit import linear_fit
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.noise_inflation import NoiseInflation, scaled
 from mixedlub.diagnosis.search.search import Search
-from mixedlub.diagnosis.settings.inference import CLIPPED_AT, MAD_TO_SD, SIGNIFICANT
+from mixedlub.diagnosis.settings.inference import CLIPPED_AT, SIGNIFICANT
 from mixedlub.diagnosis.settings.search import (
     CORRELATION_SHARES,
     DRIFT_CANDIDATES,
@@ -26,6 +26,7 @@ from mixedlub.diagnosis.settings.search import (
 )
 from mixedlub.recording.conditions import clock_of
 from mixedlub.recording.correlated_error import CorrelatedError
+from mixedlub.recording.noise import successive_difference_sd
 
 
 def search_correlated_error(
@@ -105,16 +106,6 @@ def _largest_under_null(search: Search) -> float:
     return MOST_UNDER_NULL * successive_difference_sd(
         screened.problem.single_reading_units(screened.null_fit.residual)[np.argsort(clock, kind="stable")]
     )
-
-
-def successive_difference_sd(residual: np.ndarray) -> float:
-    """Standard deviation of the white part of residuals, from their successive differences.
-
-    >>> noise = np.random.default_rng(1).standard_normal(1000)
-    >>> bool(0.9 < successive_difference_sd(noise + np.linspace(0.0, 50.0, 1000)) < 1.1)
-    True
-    """
-    return float(np.median(np.abs(np.diff(residual)))) * MAD_TO_SD / np.sqrt(2.0)
 
 
 def is_autocorrelated(residual: np.ndarray) -> bool:

@@ -64,13 +64,15 @@ def search_under_noise(case: Case, forward: Forward, exclude: Sequence[str], pro
     space = coordinates(forward)
     values = space.values(forward)
 
-    latest: list[Search] = []
+    latest: Search | None = None
+
+    def searched(problem: Problem, values: list[np.ndarray]) -> Search:
+        nonlocal latest
+        latest = search(problem, space, values, exclude, progress, latest)
+        return latest
 
     def trial(case: Case, n_per_effective: float = 1.0, correlated_error: CorrelatedError = UNCORRELATED) -> Search:
-        problem = Problem.of(case, forward, n_per_effective, correlated_error)
-        found = search(problem, space, values, exclude, progress, latest[-1] if latest else None)
-        latest[:] = [found]
-        return found
+        return searched(Problem.of(case, forward, n_per_effective, correlated_error), values)
 
     count = len(rows_of(case))
     few = spread_rows(values, count) if count > MANY else None
@@ -80,10 +82,7 @@ def search_under_noise(case: Case, forward: Forward, exclude: Sequence[str], pro
         problem = problem if few is None else problem.take(few)
         if near is not None:
             return continued(near, problem, adding=False)
-        known = latest[-1] if latest else None
-        found = search(problem, space, values if few is None else [v[few] for v in values], exclude, progress, known)
-        latest[:] = [found]
-        return found
+        return searched(problem, values if few is None else [v[few] for v in values])
 
     stated, inflation, most = is_stated(case), NoiseInflation(), np.inf
     if stated:

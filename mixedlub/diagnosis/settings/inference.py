@@ -11,8 +11,6 @@ NINETY = 1.6449
 """Definition. Half-width of a 90 % interval in standard deviations of a normal distribution."""
 INTERVAL_ENDS = (0.05, 0.95)
 """Definition. Quantiles at the ends of a 90 % interval."""
-MAD_TO_SD = 1.4826
-"""Definition. Standard deviation over the median absolute deviation of a normal distribution."""
 SIGNIFICANT = 2.0
 """Source: R. A. Fisher, Statistical Methods for Research Workers (1925). Standard errors within which a deviation is
 chance: about 95 % of a normal distribution."""
