@@ -231,7 +231,8 @@ def _diagnosis_of(
 ) -> Diagnosis:
     find(list(exclude), "exclude", case.laws)
     _refuse_level(level)
-    case, faulty, faults = set_aside(case)
+    given = case
+    case, faulty, faults = set_aside(given)
     rows = rows_of(case)
     with collected() as assumed:
         new_rows = None if requested is None else at_programme_end(case, requested)
@@ -255,7 +256,7 @@ def _diagnosis_of(
         noise_search = search_under_noise(case, forward, exclude, progress)
         progress("testing against nothing missing")
         search, test = mismatch_against_null(noise_search, level)
-    given, case, rows = case, search.problem.case, search.problem.rows
+    case, rows = search.problem.case, search.problem.rows
     warnings += [*noise_notes(search, noise_search.stated, noise_search.inflation), *setup_notes(given, search)]
     progress("leaving levels out")
     with threadpool_limits(limits=1, user_api="blas"):

@@ -6,8 +6,9 @@ import pytest
 from mixedlub.case.folder import read_case
 from mixedlub.data_checks.faulty_stretches import faults, set_aside
 from mixedlub.diagnosis.diagnose import diagnose_case
-from mixedlub.diagnosis.report.text.answer import effect_records, predictions
+from mixedlub.diagnosis.report.text.answer import effect_records, next_tests_table, predictions
 from mixedlub.importers import write_case
+from mixedlub.recording.readings import rows_of
 
 TIME = np.arange(2.0, 2002.0, 10.0)
 DEAD = slice(118, 152)
@@ -52,7 +53,8 @@ def test_its_readings_are_left_out_told_and_predicted_and_running_in_is_found(tm
     assert d.posterior.verdict.effects
     assert {e["id"] for e in effect_records(d)} <= settling
     table = predictions(d).set_index("run")
-    assert len(table) == 200
+    assert len(table) == len(rows_of(d.given)) == 200
+    assert next_tests_table(d)["run"].min() == 201
     assert np.allclose(table.predicted.loc[119:152], 0.16 + 0.05 * np.exp(-TIME[DEAD] / 250.0), atol=0.002)
 
 
