@@ -29,7 +29,7 @@ ROOMS = {
             "full_base",
             "kinds",
         ),
-        *("solutions", "case", "recording", "evaluate", "data_checks", "study", "efficiency", "report", "diagnosis"),
+        *("solutions", "case", "recording", "evaluate", "data_checks", "study", "efficiency", "skew_gears", "report", "diagnosis"),
         *("importers", "api", "validation", "commands", "cli", "__main__"),
     ),
     "diagnosis": (
