@@ -18,6 +18,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import typer
 
 from mixedlub.commands import (
+    bevel,
     check,
     condense,
     diagnose,
@@ -63,6 +64,7 @@ COMMANDS = (
     factors,
     simulate,
     gear,
+    bevel,
     efficiency,
     ehl,
     law_errors,

@@ -21,8 +21,9 @@ NAME = "new"
 EXAMPLE = "mixedlub new study --out out/my_study"
 
 STUDY, FACTORS, CASE, EHL, GEAR, EFFICIENCY = "study", "factors", "case", "ehl", "gear", "efficiency"
+BEVEL = "bevel"
 FRICTION_LAWS, TABLE, LAW = "friction-laws", "table", "law"
-TEMPLATES = (STUDY, FACTORS, CASE, TABLE, EHL, GEAR, EFFICIENCY, FRICTION_LAWS, LAW)
+TEMPLATES = (STUDY, FACTORS, CASE, TABLE, EHL, GEAR, BEVEL, EFFICIENCY, FRICTION_LAWS, LAW)
 KIND = "gear_pair"
 """Default kind of a case."""
 ROWS = 40
@@ -44,8 +45,8 @@ def command(
         str,
         typer.Argument(
             metavar="WHAT",
-            help="study, factors, case, table (a case with your own simulation), ehl, gear, efficiency, friction-laws, "
-            "law, or a method of `mixedlub evaluate`.",
+            help="study, factors, case, table (a case with your own simulation), ehl, gear, bevel, efficiency, "
+            "friction-laws, law, or a method of `mixedlub evaluate`.",
         ),
     ],
     kind: Annotated[
@@ -76,6 +77,7 @@ def command(
         FACTORS: factor_files,
         EHL: ehl_files,
         GEAR: gear_files,
+        BEVEL: bevel_files,
         EFFICIENCY: efficiency_files,
         FRICTION_LAWS: friction_law_files,
         LAW: law_files,
@@ -96,6 +98,7 @@ def command(
         FACTORS: (folder / "factors.toml", ("factors",)),
         EHL: (folder / "contacts.toml", ("ehl",)),
         GEAR: (folder / "gear.toml", ("gear",)),
+        BEVEL: (folder / "bevel.toml", ("bevel",)),
         EFFICIENCY: (folder / "efficiency.toml", ("efficiency",)),
         FRICTION_LAWS: (
             folder / "study.toml",
@@ -170,6 +173,13 @@ def law_files() -> dict[str, str]:
     from mixedlub.own_laws import EXAMPLE as LAW_FILE
 
     return {"law.toml": LAW_FILE.read_text(encoding="utf-8")}
+
+
+def bevel_files() -> dict[str, str]:
+    """A file of a hypoid pair."""
+    from mixedlub.skew_gears import EXAMPLE
+
+    return {"bevel.toml": EXAMPLE.read_text(encoding="utf-8")}
 
 
 def efficiency_files() -> dict[str, str]:

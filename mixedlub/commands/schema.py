@@ -18,7 +18,7 @@ def command(
         str,
         typer.Argument(
             metavar="KIND",
-            help="A kind of case, a file (`study`, `factors`, `gear`, `efficiency`, `ehl`, `law`), or a method of "
+            help="A kind of case, a file (`study`, `factors`, `gear`, `bevel`, `efficiency`, `ehl`, `law`), or a method of "
             "`evaluate`.",
         ),
     ],

@@ -12,6 +12,7 @@ _CLASSES = {
     STUDY: "mixedlub.study.schema:StudyFile",
     "factors": "mixedlub.study.factor_file:FactorFile",
     "gear": "mixedlub.gear.analysis.file:GearAnalysisFile",
+    "bevel": "mixedlub.skew_gears.file:BevelFile",
     "efficiency": "mixedlub.efficiency.file:EfficiencyFile",
     "ehl": "mixedlub.ehl.file:EhlFile",
     "law": "mixedlub.own_laws.file:LawFile",

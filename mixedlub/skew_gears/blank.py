@@ -1,4 +1,4 @@
-"""Blank of bevel and hypoid gears by ISO 23509: depths, cones of tips and roots, face widths, spiral angles, thickness."""
+"""Blank of bevel and hypoid gears by ISO 23509: depths, cones of tips and roots, faces, spiral angles, thickness."""
 
 from __future__ import annotations
 

@@ -30,8 +30,8 @@ HEIGHTS = 48
 class ContactLines:
     """Points of all contact lines at some positions of one pitch.
 
-    ``contact``: of every point; ``position``: its position of the mesh, as a number; ``length``: length of the line that
-    a point stands for (m); ``shape``: line load of a point over the largest possible one; ``along`` and ``height``: of
+    ``contact``: of every point; ``position``: number of its position of the mesh; ``length``: length of the line that a
+    point stands for (m); ``shape``: line load of a point over the largest possible one; ``along`` and ``height``: of
     the crown gear's flank (m); ``tooth``: pitches between the tooth pair and the pair at the mean point.
     """
 

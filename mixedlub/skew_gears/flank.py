@@ -22,7 +22,7 @@ class Contact:
     ``place``: from the mean point (m); ``wheel_angle``: turn of the wheel (rad); ``normal``: into the wheel;
     ``velocity``: of pinion and wheel (m); ``across``: unit vector in the flank across the contact line; ``passing``:
     speed of the contact across the pinion's and the wheel's flank (m); ``curvature``: relative curvature across the
-    line (1/m), negative where the flanks would cut each other.
+    line (1/m), negative where the flanks would cut each other; ``lengthwise``: unit vector in the flank along the tooth.
     """
 
     place: np.ndarray
@@ -32,6 +32,7 @@ class Contact:
     across: np.ndarray
     passing: tuple[np.ndarray, np.ndarray]
     curvature: np.ndarray
+    lengthwise: np.ndarray
 
     @property
     def sliding(self) -> np.ndarray:
@@ -144,7 +145,7 @@ def _of_wheel(blank: Blank, axes: Axes, crown: _Flank) -> _Flank:
 
 
 def _of_pinion(axes: Axes, wheel: _Flank, turned: np.ndarray) -> Contact:
-    """Contact of the wheel's flank with the pinion: the wheel turns on until the normal meets the equation of meshing."""
+    """Contact of the wheel's flank with the pinion: the wheel turns on until the equation of meshing holds."""
     pinion, own = axes.turning
     direction, speed = axes.direction[1], float(np.linalg.norm(own))
     moment = np.cross(wheel.place - axes.point[1], wheel.normal)
@@ -175,7 +176,9 @@ def _of_pinion(axes: Axes, wheel: _Flank, turned: np.ndarray) -> Contact:
     )
     velocity = axes.velocity(0, flank.place), axes.velocity(1, flank.place)
     across, curvature, passing = _envelope(flank, (pinion, own), velocity)
-    return Contact(flank.place, turned + angle, flank.normal, velocity, across, passing, -curvature)
+    return Contact(
+        flank.place, turned + angle, flank.normal, velocity, across, passing, -curvature, flank.directions[0]
+    )
 
 
 def _envelope(

@@ -1,4 +1,4 @@
-"""Lengthwise shape of the teeth on the crown gear: circle of face milling, epicycloid of face hobbing, straight line."""
+"""Lengthwise shape of the teeth on the crown gear: circle of face milling, epicycloid of face hobbing, or line."""
 
 from __future__ import annotations
 
