@@ -55,7 +55,7 @@ def command(
 
 def _line(row: Mapping[Any, Any]) -> str:
     return (
-        f"  {row['torque_Nm']:.4g} N m, {row['speed_rpm']:.4g} rpm, {row['oil_temperature_C']:.4g} °C: tooth efficiency "
-        f"{row['tooth_efficiency_percent']:.3f} %, {row['power_loss_W']:.4g} W lost at a mean friction of "
+        f"  {row['torque_Nm']:.4g} N m, {row['speed_rpm']:.4g} rpm, {row['oil_temperature_C']:.4g} °C: tooth "
+        f"efficiency {row['tooth_efficiency_percent']:.3f} %, {row['power_loss_W']:.4g} W lost at a mean friction of "
         f"{row['mean_friction']:.4f}, {row['lengthwise_loss_percent']:.3g} % of it along the teeth"
     )

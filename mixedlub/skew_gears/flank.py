@@ -22,7 +22,7 @@ class Contact:
     ``place``: from the mean point (m); ``wheel_angle``: turn of the wheel (rad); ``normal``: into the wheel;
     ``velocity``: of pinion and wheel (m); ``across``: unit vector in the flank across the contact line; ``passing``:
     speed of the contact across the pinion's and the wheel's flank (m); ``curvature``: relative curvature across the
-    line (1/m), negative where the flanks would cut each other; ``lengthwise``: unit vector in the flank along the tooth.
+    line (1/m), negative where the flanks would cut each other; ``lengthwise``: unit vector along the tooth.
     """
 
     place: np.ndarray

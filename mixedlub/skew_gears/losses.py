@@ -196,7 +196,7 @@ class Mesh:
         return values, beyond
 
     def _levers(self, mu: np.ndarray, sign: float) -> np.ndarray:
-        """Torque on the pinion over the largest line load, by position; raise an error for a wheel that cannot drive."""
+        """Torque on the pinion over the largest line load, by position; raise an error if the wheel cannot drive."""
         lines = self.lines
         free = lines.over_positions(lines.weight * lines.drive_speed)
         rubbed = lines.over_positions(lines.weight * mu * lines.pinion_slip)
