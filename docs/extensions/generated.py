@@ -32,6 +32,7 @@ ELSEWHERE = re.compile(r"^gears|^stages\.NAME\.(gears|lubricant|surfaces|options
 """Tables of a file whose keys other pages have."""
 RESULTS = {
     "gear": ("mixedlub.gear.analysis.table", "TABLES"),
+    "bevel": ("mixedlub.skew_gears.table", "TABLES"),
     "efficiency": ("mixedlub.efficiency.table", "TABLES"),
     "ehl": ("mixedlub.ehl.table", "TABLES"),
     "friction": ("mixedlub.study.friction_comparison", "TABLES"),
@@ -84,6 +85,7 @@ def pieces() -> dict[str, str]:
         "oils": _oils(),
         "oil_keys": _oil_keys(),
         "gear_keys": _file_keys("mixedlub.gear.analysis.file", "GearAnalysisFile"),
+        "bevel_keys": _file_keys("mixedlub.skew_gears.file", "BevelFile"),
         "efficiency_keys": _file_keys("mixedlub.efficiency.file", "EfficiencyFile"),
         "part_laws": _part_laws(),
         "presets": _presets(),

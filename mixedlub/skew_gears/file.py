@@ -182,9 +182,6 @@ class BevelFile(Section):
         count = len(levels.torque_Nm) * len(levels.speed_rpm) * len(levels.oil_temperature_C)
         if count > MOST_CONDITIONS:
             raise ValueError(f"conditions: a map has at most {MOST_CONDITIONS} conditions, not {count}")
-        for name in ("torque_Nm", "speed_rpm"):
-            if min(getattr(levels, name)) <= 0.0:
-                raise ValueError(f"conditions.{name}: {min(getattr(levels, name)):g} must be above 0")
         return self
 
 

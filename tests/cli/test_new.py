@@ -114,6 +114,7 @@ def test_what_is_not_there_is_named(tmp_path, capsys, words, said):
 WITH_PAGES = {
     "friction-laws": "mesh.csv",
     "gear": "summary.csv",
+    "bevel": "map.csv",
     "efficiency": "map.csv",
     "ehl": "contacts.csv",
     "factors": "results.csv",

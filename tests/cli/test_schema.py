@@ -10,6 +10,7 @@ from jsonschema import Draft202012Validator
 from mixedlub.cli import main
 from mixedlub.commands.new import (
     TEMPLATES,
+    bevel_files,
     case_files,
     efficiency_files,
     ehl_files,
@@ -28,6 +29,7 @@ MAKERS = {
     "study": study_files,
     "factors": factor_files,
     "gear": gear_files,
+    "bevel": bevel_files,
     "efficiency": efficiency_files,
     "ehl": ehl_files,
     "law": law_files,

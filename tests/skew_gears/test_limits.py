@@ -77,7 +77,9 @@ def test_without_offset_every_method_is_the_bevel_pair(basic):
     assert np.tan(cones.angle[0]) == pytest.approx(sin(basic.shaft_angle) / (basic.ratio + cos(basic.shaft_angle)))
     assert sum(cones.angle) == pytest.approx(basic.shaft_angle, abs=1e-12)
     assert cones.limit_angle == pytest.approx(0.0, abs=1e-12)
-    assert mean_contact(blank(replace(basic, offset=0.0), TEETH[basic])).sliding_speed[0] == pytest.approx(0.0, abs=1e-15)
+    assert mean_contact(blank(replace(basic, offset=0.0), TEETH[basic])).sliding_speed[0] == pytest.approx(
+        0.0, abs=1e-15
+    )
 
 
 def helical():
