@@ -50,7 +50,9 @@ def kinds_text(name: str | None = None) -> str:
     chosen = [kind(n) for n in (KINDS if name is None else (name,))]
     taken = {*EVERY_CASE, *(section for k in chosen for section in (*k.sections, *k.uses))}
     lines = [] if name else [f"{len(KINDS)} kinds of case. `mixedlub kinds KIND` shows one, with the keys it takes;"]
-    lines += [] if name else ["`mixedlub kinds study`, `factors`, `gear`, `bevel`, `efficiency`, `ehl`, `law`: files."]
+    lines += (
+        [] if name else ["Files: `mixedlub kinds study`, `factors`, `gear`, `bevel`, `efficiency`, `ehl`,", "`law`."]
+    )
     for k in chosen:
         lines += ["", *_kind(k)]
     lines += ["", "columns of every kind (conditions.csv has all but the reading)", *aligned(common_rows())]

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -180,13 +181,15 @@ def _end_of_mesh(searched: Search, along: np.ndarray, heights: np.ndarray, sign:
     for _ in range(ZOOMS):
         grid, inside = searched(along, heights)
         turn = np.where(inside, sign * grid.wheel_angle, -np.inf)
-        row, column = np.unravel_index(int(np.argmax(turn)), turn.shape)
+        row, column = divmod(int(np.argmax(turn)), turn.shape[1])
         end = float(grid.wheel_angle[row, column])
-        along, heights = (
-            np.linspace(axis[max(i - 1, 0)], axis[min(i + 1, axis.size - 1)], ZOOMED)
-            for axis, i in ((along, row), (heights, column))
-        )
+        along, heights = _closer(along, row), _closer(heights, column)
     return end
+
+
+def _closer(values: np.ndarray, index: int) -> np.ndarray:
+    """Values between both neighbours of one of them."""
+    return np.linspace(values[max(index - 1, 0)], values[min(index + 1, values.size - 1)], ZOOMED)
 
 
 def _height_at(turns: np.ndarray, heights: np.ndarray, turn: float) -> float:
@@ -225,10 +228,7 @@ def _load_shape(length: np.ndarray, turn: np.ndarray, exponent: float) -> np.nda
 
 
 def _taken(contact: Contact, kept: np.ndarray) -> Contact:
-    own = {one.name: getattr(contact, one.name) for one in fields(contact)}
-    return Contact(
-        **{
-            name: tuple(v[kept] for v in value) if isinstance(value, tuple) else value[kept]
-            for name, value in own.items()
-        }
-    )
+    own: dict[str, Any] = {one.name: getattr(contact, one.name) for one in fields(contact)}
+    for name, value in own.items():
+        own[name] = tuple(part[kept] for part in value) if isinstance(value, tuple) else value[kept]
+    return Contact(**own)

@@ -168,7 +168,7 @@ def vary_table(pair: Pair) -> pd.DataFrame:
     for name, value, own, losses, reason in pair.varied():
         row: dict[str, object] = {"varied": name, "value": value}
         if own is not None and losses is not None:
-            row |= frame_of(losses, RESULTS).iloc[0].to_dict()
+            row |= {str(key): result for key, result in frame_of(losses, RESULTS).iloc[0].items()}
             row |= {
                 f"{member}_spiral_angle_deg": _deg(own.cones.spiral[i]) for i, member in enumerate(("pinion", "wheel"))
             }

@@ -12,6 +12,9 @@ from mixedlub.skew_gears.pitch_cones import pitch_cones
 from mixedlub.skew_gears.table import OF_MEMBERS, OF_PAIR
 from tests.skew_gears.samples import BEVEL, GLEASON, KLINGELNBERG, OERLIKON, TEETH
 
+pytestmark = pytest.mark.literature(
+    "ISO 23509:2016, annex F, and ISO/TR 10300-30:2024, samples 1 to 4, as public programs quote them"
+)
 ANGLE, LENGTH = 0.03, 0.03
 """Digits of the samples: methods 1 and 3 were printed with the stop of their rounds, 1 % and 1e-4."""
 PRINTED = {

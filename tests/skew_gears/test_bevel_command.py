@@ -93,7 +93,7 @@ def test_friction_laws_by_name(tmp_path, law):
         found["mean_friction"] * found["loss_factor"] * found.torque * found.speed, rel=1e-12
     )
     assert np.all((found["mean_friction"] > 0.01) & (found["mean_friction"] < 0.2))
-    assert np.all((found["loss_factor"] > 0.43) & (found["loss_factor"] < 0.47))
+    assert np.all((found["loss_factor"] > 0.37) & (found["loss_factor"] < 0.47))
 
 
 def test_schlenk_reads_the_mean_point(tmp_path):
@@ -127,7 +127,7 @@ def test_files_of_the_template(tmp_path, capsys):
     assert [row["torque_Nm"] for row in found["map"]] == tables["map"]["torque_Nm"].tolist()
     assert found["geometry"][-1]["wheel"] is None
     speeds = tables["contact"]
-    both = speeds["lengthwise_sliding_mm_rad"] ** 2 + speeds["profile_sliding_mm_rad"] ** 2
+    both = (speeds["lengthwise_sliding_mm_rad"] ** 2 + speeds["profile_sliding_mm_rad"] ** 2).to_numpy()
     assert np.sqrt(both) == pytest.approx(speeds["sliding_mm_rad"].to_numpy(), rel=1e-9)
 
 
