@@ -30,6 +30,8 @@ TITLES = {"mccool": "McCool's asperities", "integrals": "Integrals of Gaussian h
 COLUMN_HEAD = ("column", "unit", "needed", "allowed", "meaning")
 ELSEWHERE = re.compile(r"^gears|^stages\.NAME\.(gears|lubricant|surfaces|options)\b")
 """Tables of a file whose keys other pages have."""
+OF_CASES = re.compile(r"^(lubricant|surfaces|options)\b")
+"""Tables of a file with gears of its own whose keys other pages have."""
 RESULTS = {
     "gear": ("mixedlub.gear.analysis.table", "TABLES"),
     "bevel": ("mixedlub.skew_gears.table", "TABLES"),
@@ -85,7 +87,7 @@ def pieces() -> dict[str, str]:
         "oils": _oils(),
         "oil_keys": _oil_keys(),
         "gear_keys": _file_keys("mixedlub.gear.analysis.file", "GearAnalysisFile"),
-        "bevel_keys": _file_keys("mixedlub.skew_gears.file", "BevelFile"),
+        "bevel_keys": _file_keys("mixedlub.skew_gears.file", "BevelFile", OF_CASES),
         "efficiency_keys": _file_keys("mixedlub.efficiency.file", "EfficiencyFile"),
         "part_laws": _part_laws(),
         "presets": _presets(),
@@ -279,14 +281,14 @@ def _factor_columns() -> str:
     )
 
 
-def _file_keys(module: str, name: str) -> str:
+def _file_keys(module: str, name: str, elsewhere: re.Pattern[str] = ELSEWHERE) -> str:
     """The tables of a file but those of gears, oil, surfaces and options, which are with the cases and studies."""
     from importlib import import_module
 
     from mixedlub.schema.section import tables
 
     file = getattr(import_module(module), name)
-    return "\n\n".join(part for table in tables(file) if not ELSEWHERE.search(table.title) for part in md.keys(table))
+    return "\n\n".join(part for table in tables(file) if not elsewhere.search(table.title) for part in md.keys(table))
 
 
 def _evaluations() -> str:

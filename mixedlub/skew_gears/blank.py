@@ -9,6 +9,7 @@ import numpy as np
 
 from mixedlub.skew_gears.lengthwise import Trace, crown_trace
 from mixedlub.skew_gears.pitch_cones import Basic, PitchCones, crown_ratio, pitch_cones
+from profiles.errors import InputError
 
 Both = tuple[float, float]
 
@@ -106,6 +107,7 @@ def blank(basic: Basic, data: ToothData) -> Blank:
         roots = (pinion - _mate(departure, wheel + tip, turns[1]), root)
     outer = cones.outer_share * basic.face_width
     wheel_face = (basic.face_width - outer, outer)
+    _check_face(trace, wheel_face)
     pinion_face = _pinion_face(basic, data, cones, module, heights[0], depths[1], tips[0], turns[0], wheel_face)
     ends = _spiral_ends(cones, trace, pinion_face, wheel_face)
     return Blank(
@@ -123,6 +125,21 @@ def blank(basic: Basic, data: ToothData) -> Blank:
         spiral_ends=ends,
         thickness=_thickness(data, cones, module, (drive + coast) / 2, outer),
     )
+
+
+def _check_face(trace: Trace, face: Both) -> None:
+    """Raise an error for a face that reaches the apex, or where the cutter does not."""
+    if trace.is_straight:
+        return
+    inner, outer = trace.distance - face[0], trace.distance + face[1]
+    least, most = trace.ends()
+    if min(face) <= 0.0 or inner <= 0.0:
+        rule = f"is too wide: the mean cone distance of the wheel is {1e3 * trace.distance:.4g} mm"
+        raise InputError(rule, where="gears.wheel_face_width_mm", value=1e3 * (face[0] + face[1]))
+    if inner <= least or outer >= most:
+        rule = f"cuts cone distances from {1e3 * least:.4g} to {1e3 * most:.4g} mm, but the wheel's face reaches from "
+        rule += f"{1e3 * inner:.4g} to {1e3 * outer:.4g} mm"
+        raise InputError(rule, where="gears.cutter_radius_mm", value=1e3 * trace.cutter)
 
 
 def _apex_beyond(cones: PitchCones, departure: float) -> Both:

@@ -26,10 +26,9 @@ class SkewGears(Section):
     """A bevel or hypoid pair by the basic data and tooth data of ISO 23509."""
 
     method: Literal[0, 1, 2, 3] = key(
-        "pitch cones by this method of ISO 23509",
+        "pitch cones by this method of ISO 23509: 0 bevel gears without offset, 1 Gleason, 2 Oerlikon, 3 Klingelnberg",
         0,
         example=1,
-        values={0: "bevel gears without offset", 1: "Gleason", 2: "Oerlikon", 3: "Klingelnberg"},  # type: ignore[dict-item]
     )
     teeth: tuple[Whole, Whole] = key("numbers of teeth, pinion and wheel", example=[13, 42])
     shaft_angle_deg: Annotated[Number, Field(ge=0.0, lt=180.0)] = key("angle between both axes", 90.0)
@@ -42,7 +41,9 @@ class SkewGears(Section):
     )
     wheel_face_width_mm: Positive = key("face width of the wheel", example=30.0)
     spiral_angle_deg: Angle = key(
-        "mean spiral angle, by method 1 of the pinion, else of the wheel; left out: straight teeth", 0.0, example=50.0
+        "mean spiral angle, by method 1 of the pinion, else of the wheel; 0 is Zerol, with a large cutter straight",
+        0.0,
+        example=50.0,
     )
     cutting: Literal["face_milled", "face_hobbed"] = key(
         "how the teeth are cut, which gives their lengthwise curve",

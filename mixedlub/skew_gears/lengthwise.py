@@ -65,11 +65,17 @@ class Trace:
 
     def _seen(self, radius: np.ndarray | float) -> np.ndarray:
         """Angle at the apex between a point and the cutter's axis."""
-        return np.asarray(np.arccos((radius**2 + self.centre**2 - self.cutter**2) / (2 * radius * self.centre)))
+        return _angle((radius**2 + self.centre**2 - self.cutter**2) / (2 * radius * self.centre))
 
     def _blade(self, radius: np.ndarray | float) -> np.ndarray:
         """Angle at the cutter's axis between apex and blade."""
-        return np.asarray(np.arccos((self.centre**2 + self.cutter**2 - radius**2) / (2 * self.centre * self.cutter)))
+        return _angle((self.centre**2 + self.cutter**2 - radius**2) / (2 * self.centre * self.cutter))
+
+
+def _angle(cosine: np.ndarray | float) -> np.ndarray:
+    """Angle of a cosine; not a number beyond the reach of the cutter."""
+    with np.errstate(invalid="ignore"):
+        return np.asarray(np.arccos(cosine))
 
 
 def crown_trace(distance: float, spiral: float, cutter: float, ratio: float) -> Trace:

@@ -353,20 +353,28 @@ def _root(misfit: Callable[[float], float], start: float, low: float, high: floa
 
     def value(angle: float) -> float:
         try:
-            return misfit(angle)
-        except NoPitchConesError:
+            return misfit(float(angle)) if math.isfinite(angle) else math.nan
+        except (NoPitchConesError, ZeroDivisionError):
             return math.nan
 
     angles = np.linspace(low, high, STEPS)
     values = np.array([value(angle) for angle in angles])
     with np.errstate(invalid="ignore"):
         found = np.flatnonzero(values[:-1] * values[1:] <= 0)
-    roots = [brentq(misfit, angles[i], angles[i + 1], xtol=1e-14) for i in found]
+    roots = [_between(value, angles[i], angles[i + 1]) for i in found]
     # A pole changes sign too, without a zero.
-    roots = [root for root in roots if abs(misfit(root)) <= 1e-6 * np.nanmax(np.abs(values))]
+    roots = [root for root in roots if abs(value(root)) <= 1e-6 * np.nanmax(np.abs(values))]
     if not roots:
         raise NoPitchConesError("no pitch cones fit the cutter")
     return float(min(roots, key=lambda root: abs(root - start)))
+
+
+def _between(value: Callable[[float], float], low: float, high: float) -> float:
+    """Zero between two angles; not a number where some angle between them has no pitch cones."""
+    try:
+        return float(brentq(value, low, high, xtol=1e-14))
+    except ValueError:
+        return math.nan
 
 
 def _sine(value: float) -> float:

@@ -17,7 +17,7 @@ from mixedlub.schema.findings import Finding, collected
 from mixedlub.schema.system_file import RigFile
 from mixedlub.schema.toml_file import parse, read_toml
 from mixedlub.skew_gears.blank import Blank, blank
-from mixedlub.skew_gears.contact_lines import contact_lines
+from mixedlub.skew_gears.contact_lines import ContactLines, contact_lines
 from mixedlub.skew_gears.file import BevelFile, altered
 from mixedlub.skew_gears.losses import Losses, Mesh
 from mixedlub.skew_gears.pitch_cones import Basic, NoPitchConesError, largest_offset
@@ -117,7 +117,7 @@ def _pair(path: Path, file: BevelFile) -> Pair:
     return Pair(file, own, mesh)
 
 
-def _lines(own: Blank, file: BevelFile):  # type: ignore[no-untyped-def]
+def _lines(own: Blank, file: BevelFile) -> ContactLines:
     return contact_lines(
         own, drive=file.flank == "drive", crowning=file.gears.crowning, face_share=file.gears.face_share
     )
