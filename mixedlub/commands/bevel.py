@@ -27,22 +27,25 @@ def command(
 ) -> None:
     """Geometry and efficiency of bevel and hypoid gears.
 
-    By ISO 23509 and exact conjugate flanks: geometry.csv, contact.csv (points of the contact lines), map.csv (tooth
-    efficiency at every condition), vary.csv (over offset, spiral angle, ratio and roughness), bevel.json and figures.
+    By ISO 23509 and exact conjugate flanks: geometry.csv, map.csv (tooth efficiency at every condition), contact.csv
+    and mesh_cycle.csv (points of the contact lines, and efficiency over one pitch, at the largest torque and speed),
+    vary.csv (over offset, spiral angle, ratio and roughness), bevel.json and figures.
     """
     import json
 
     from mixedlub.chain.ranges import findings
     from mixedlub.report.bevel import bevel_figures
     from mixedlub.skew_gears.prepare import read_pair
-    from mixedlub.skew_gears.table import TABLES, contact_table, geometry_table, map_table, vary_table
+    from mixedlub.skew_gears.table import TABLES, contact_table, cycle_table, geometry_table, map_table, vary_table
 
     with input_errors_from(str(file)):
         pair, notes = read_pair(file)
         to = how.open(file.stem, origin_of_file(file), TABLES, "file", JSON)
         with busy("computing"):
             losses = pair.map()
-            made = {"map": map_table(losses), "geometry": geometry_table(pair), "contact": contact_table(pair)}
+            points = pair.points_at_largest()
+            made = {"map": map_table(losses), "geometry": geometry_table(pair)}
+            made |= {"contact": contact_table(pair, points), "mesh_cycle": cycle_table(pair, points)}
             if pair.file.vary is not None:
                 made["vary"] = vary_table(pair)
     print_findings([*findings(losses.reached, losses.torque.shape, "conditions"), *notes])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,7 +23,11 @@ AXES = {
 
 def bevel_figures(tables: Mapping[str, pd.DataFrame]) -> dict[str, Drawing]:
     """All figures by file name."""
-    figures: dict[str, Drawing] = {"efficiency": _efficiency(tables["map"]), "contact": _contact(tables["contact"])}
+    figures: dict[str, Drawing] = {
+        "efficiency": _efficiency(tables["map"]),
+        "contact": _contact(tables["contact"]),
+        "mesh_cycle": _cycle(tables["mesh_cycle"]),
+    }
     if "vary" in tables and (panels := _varied(tables["vary"])):
         figures["vary"] = panels
     return figures
@@ -42,22 +46,35 @@ def _efficiency(table: pd.DataFrame) -> tuple[Panel, ...]:
     return tuple(panels)
 
 
+def _cycle(table: pd.DataFrame) -> tuple[Panel, ...]:
+    """Efficiency and friction over one pitch."""
+    return tuple(
+        Panel("turn of the mesh (base pitches)", up, (Curve(table["base_pitches"].to_numpy(), table[name].to_numpy()),))
+        for name, up in (("tooth_efficiency_percent", EFFICIENCY), ("mean_friction", "friction coefficient (-)"))
+    )
+
+
 def _contact(table: pd.DataFrame) -> tuple[Panel, ...]:
-    """Contact lines on the flank at three positions of one pitch, and sliding along them."""
+    """Contact lines on the flank at three positions of one pitch; sliding, pressure and friction along them."""
     positions = np.unique(table["base_pitches"])
     chosen = positions[np.unique(np.linspace(0, positions.size - 1, 3).round().astype(int))]
-    place, slides = [], []
-    for group, position in enumerate(chosen):
+    return tuple(
+        Panel("along the face from the mean point (mm)", up, tuple(_lines(table, chosen, name)), from_zero=zero)
+        for name, up, zero in (
+            ("height_mm", "height above the pitch plane (mm)", False),
+            ("sliding_mm_rad", "sliding over pinion speed (mm/rad)", True),
+            ("hertz_pressure_MPa", "Hertz pressure (MPa)", True),
+            ("friction", "friction coefficient (-)", True),
+        )
+    )
+
+
+def _lines(table: pd.DataFrame, positions: np.ndarray, name: str) -> Iterator[Curve]:
+    """A quantity along each contact line at some positions of the mesh."""
+    for group, position in enumerate(positions):
         for number, (_, rows) in enumerate(table[table["base_pitches"] == position].groupby("tooth_pair")):
             label = f"{position:.2g} pitches" if number == 0 else ""
-            x = rows["face_position_mm"].to_numpy()
-            place.append(Curve(x, rows["height_mm"].to_numpy(), label, group=group))
-            slides.append(Curve(x, rows["sliding_mm_rad"].to_numpy(), label, group=group))
-    across = "along the face from the mean point (mm)"
-    return (
-        Panel(across, "height above the pitch plane (mm)", tuple(place)),
-        Panel(across, "sliding over pinion speed (mm/rad)", tuple(slides), from_zero=True),
-    )
+            yield Curve(rows["face_position_mm"].to_numpy(), rows[name].to_numpy(), label, group=group)
 
 
 def _varied(table: pd.DataFrame) -> tuple[Panel, ...]:

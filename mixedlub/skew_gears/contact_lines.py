@@ -66,6 +66,16 @@ class ContactLines:
         size = np.maximum(np.linalg.norm(sliding, axis=-1), np.finfo(float).tiny)
         return np.asarray(np.einsum("...i,...i->...", sliding, self.contact.velocity[0])) / size
 
+    @cached_property
+    def lengthwise_sliding(self) -> np.ndarray:
+        """Sliding velocity along the teeth, pinion less wheel (m)."""
+        return np.asarray(np.einsum("...i,...i->...", self.contact.sliding, self.contact.lengthwise))
+
+    @cached_property
+    def profile_sliding(self) -> np.ndarray:
+        """Sliding speed in the direction of the profile (m)."""
+        return np.sqrt(np.maximum(self.contact.sliding_speed**2 - self.lengthwise_sliding**2, 0.0))
+
     def over_positions(self, values: np.ndarray) -> np.ndarray:
         """Sum of values by position, over the last axis."""
         found = np.zeros((*values.shape[:-1], self.positions))

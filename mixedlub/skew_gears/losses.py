@@ -149,20 +149,33 @@ class Mesh:
         reached = [(limit, np.concatenate([part[1][i] for part in parts])) for i, limit in enumerate(self.limits)]
         return Losses(torque, speed, temperature, values, reached)
 
+    def points(self, torque: float, speed: float, temperature: float) -> dict[str, np.ndarray]:
+        """Line load, friction and state of every contact point at one condition, and its loss (W)."""
+        load, mu, state = self._solved(*(np.array([[one]]) for one in (torque, speed, temperature)))
+        found = {name: np.broadcast_to(state[name], load.shape)[0] for name in WANTED}
+        lost = mu * load * self.lines.length * self.lines.contact.sliding_speed * speed
+        return {**found, "line_load": load[0], "friction": np.broadcast_to(mu, load.shape)[0], "power_loss": lost[0]}
+
+    def _solved(
+        self, torque: np.ndarray, speed: np.ndarray, temperature: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, dict[str, Any]]:
+        """Line load (N/m), friction and state of the model, with conditions in rows."""
+        lines, mu = self.lines, np.zeros((1, 1))
+        for _ in range(ROUNDS):
+            load = lines.at_position(torque / self._levers(mu)) * lines.shape
+            with np.errstate(all="ignore"):
+                state = self.model(self._inputs(torque, speed, temperature, np.maximum(load, np.finfo(float).tiny)))
+            # Without sliding no friction law matters, though some diverge.
+            mu = np.where(lines.contact.sliding_speed > 0.0, state["friction"], 0.0)
+        self._levers(mu)
+        return load, mu, state
+
     def _at(
         self, torque: np.ndarray, speed: np.ndarray, temperature: np.ndarray
     ) -> tuple[dict[str, np.ndarray], list[np.ndarray]]:
         """Results of conditions in rows, and the values farthest beyond the limits."""
         lines, contact = self.lines, self.lines.contact
-        sign = 1.0 if self.pinion_drives else -1.0
-        mu = np.zeros((1, 1))
-        for _ in range(ROUNDS):
-            largest = torque / self._levers(mu, sign)
-            load = lines.at_position(largest) * lines.shape
-            with np.errstate(all="ignore"):
-                state = self.model(self._inputs(torque, speed, temperature, np.maximum(load, np.finfo(float).tiny)))
-            # Without sliding no friction law matters, though some diverge.
-            mu = np.where(contact.sliding_speed > 0.0, state["friction"], 0.0)
+        load, mu, state = self._solved(torque, speed, temperature)
         sliding = contact.sliding_speed * speed
         weight = load * lines.length / lines.positions
         power, lost = (weight * sliding).sum(axis=-1), (mu * weight * sliding).sum(axis=-1)
@@ -170,12 +183,9 @@ class Mesh:
             raise InputError("the numbers give no finite friction; look for one far out of range", where="conditions")
         of_pinion = (torque * speed)[:, 0]
         taken = of_pinion if self.pinion_drives else of_pinion + lost
-        along = np.einsum("...i,...i->...", contact.sliding, contact.lengthwise) ** 2 / np.maximum(
-            contact.sliding_speed**2, np.finfo(float).tiny
-        )
+        along = lines.lengthwise_sliding**2 / np.maximum(contact.sliding_speed**2, np.finfo(float).tiny)
         carries = carries_load(load)
-        shape = load.shape
-        loaded = {name: np.broadcast_to(state[name], shape) for name in WANTED}
+        loaded = {name: np.broadcast_to(state[name], load.shape) for name in WANTED}
         values = {
             "input_power": taken,
             "power_loss": lost,
@@ -195,21 +205,25 @@ class Mesh:
         ]
         return values, beyond
 
-    def _levers(self, mu: np.ndarray, sign: float) -> np.ndarray:
-        """Torque on the pinion over the largest line load, by position; raise an error if the wheel cannot drive."""
-        lines = self.lines
+    def _levers(self, mu: np.ndarray) -> np.ndarray:
+        """Torque on the pinion over the largest line load, by position; raise an error for a pair that locks itself."""
+        lines, sign = self.lines, 1.0 if self.pinion_drives else -1.0
         free = lines.over_positions(lines.weight * lines.drive_speed)
         rubbed = lines.over_positions(lines.weight * mu * lines.pinion_slip)
-        found = free + sign * rubbed
-        if np.any(found <= 0.0):
-            limit = float((free / lines.over_positions(lines.weight * lines.pinion_slip)).mean())
+        if self.pinion_drives:
+            held = lines.over_positions(lines.weight * mu * (lines.contact.sliding_speed - lines.pinion_slip))
+        else:
+            held = rubbed
+        if np.any(held >= free):
+            at = np.unravel_index(int(np.argmax(held / free)), held.shape)
             worst = float(np.max(mu))
+            driver, driven = ("pinion", "wheel") if self.pinion_drives else ("wheel", "pinion")
             rule = (
-                f"the pair locks itself: a wheel cannot drive this pinion at a friction coefficient of {worst:.3g}, "
-                f"only below {limit:.3g}"
+                f"the pair locks itself: the {driver} cannot drive the {driven} at a friction coefficient of "
+                f"{worst:.3g}, only below {worst * float((free / held)[at]):.3g}"
             )
-            raise InputError(rule, where="driving", value="gear")
-        return found
+            raise InputError(rule, where="driving", value="pinion" if self.pinion_drives else "gear")
+        return np.asarray(free + sign * rubbed)
 
 
 def _mean(values: np.ndarray, length: np.ndarray) -> np.ndarray:

@@ -55,6 +55,12 @@ class Pair:
         torque, speed = (np.array([max(values)]) for values in (levels.torque_Nm, levels.speed_rpm))
         return self.mesh.losses(torque, speed * RPM, np.array([levels.oil_temperature_C[-1] + ZERO_CELSIUS]))
 
+    def points_at_largest(self) -> dict[str, np.ndarray]:
+        """State of every contact point at that condition."""
+        levels = self.file.conditions
+        temperature = levels.oil_temperature_C[-1] + ZERO_CELSIUS
+        return self.mesh.points(max(levels.torque_Nm), max(levels.speed_rpm) * RPM, temperature)
+
     def varied(self) -> Iterator[tuple[str, float, Blank | None, Losses | None, str]]:
         """Number, value, blank, losses, and reason why there are none, of every value of [vary]."""
         for name, values in (self.file.vary.model_dump() if self.file.vary else {}).items():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 import pandas as pd
@@ -42,7 +42,7 @@ MAP = (
     *RESULTS,
 )
 CONTACT = (
-    column(lambda f: f.position / f.positions, "base_pitches", "position of the mesh", "pitches"),
+    column(lambda f: (f.position + 0.5) / f.positions, "base_pitches", "position of the mesh", "pitches"),
     column(lambda f: f.tooth, "tooth_pair", "pitches from the pair at the mean point", "pitches"),
     column(lambda f: f.along * 1e3, "face_position_mm", "along the face from the mean point, outwards"),
     column(lambda f: f.height * 1e3, "height_mm", "above the pitch plane, towards the wheel's root"),
@@ -54,27 +54,20 @@ CONTACT = (
     ),
     column(lambda f: f.contact.sliding_speed * 1e3, "sliding_mm_rad", "sliding speed over pinion speed", "mm/rad"),
     column(
-        lambda f: np.einsum("...i,...i->...", f.contact.sliding, f.contact.lengthwise) * 1e3,
+        lambda f: f.lengthwise_sliding * 1e3,
         "lengthwise_sliding_mm_rad",
         "its part along the tooth, pinion less wheel",
         "mm/rad",
     ),
-    column(
-        lambda f: (
-            np.sqrt(
-                np.maximum(
-                    f.contact.sliding_speed**2
-                    - np.einsum("...i,...i->...", f.contact.sliding, f.contact.lengthwise) ** 2,
-                    0.0,
-                )
-            )
-            * 1e3
-        ),
-        "profile_sliding_mm_rad",
-        "its part in profile direction",
-        "mm/rad",
-    ),
+    column(lambda f: f.profile_sliding * 1e3, "profile_sliding_mm_rad", "its part in profile direction", "mm/rad"),
 )
+LOADED = (
+    column(lambda f: f["line_load"] * 1e-3, "line_load_N_mm", "normal force per length of line"),
+    column(lambda f: f["hertz_pressure"] * 1e-6, "hertz_pressure_MPa", "largest Hertz pressure"),
+    column(lambda f: f["film_thickness"] * 1e6, "film_thickness_um", "central film"),
+    column(lambda f: f["friction"], "friction", "friction coefficient"),
+)
+"""Columns of a contact point at the largest torque and speed and the last oil temperature."""
 Value = Callable[[Blank, int], float]
 
 
@@ -118,7 +111,13 @@ OF_PAIR: dict[str, Callable[[Blank], float]] = {
 TABLES = {
     "map": (*MAP, *described(validity="text: valid, or what is not")),
     "geometry": described(quantity="text: name with unit", pinion="of the pinion or the pair", wheel="of the wheel"),
-    "contact": CONTACT,
+    "contact": (*CONTACT, *LOADED),
+    "mesh_cycle": described(
+        base_pitches="turn of the mesh",
+        power_loss_W="power lost by all tooth pairs in contact",
+        tooth_efficiency_percent="1 less power lost over input power",
+        mean_friction="loss over load times sliding speed",
+    ),
     "vary": (
         *described(varied="text: number that varies", value="its value"),
         *RESULTS,
@@ -157,9 +156,26 @@ def geometry_table(pair: Pair) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["quantity", "pinion", "wheel"])
 
 
-def contact_table(pair: Pair) -> pd.DataFrame:
-    """Points of the contact lines over one pitch."""
-    return frame_of(pair.mesh.lines, CONTACT)
+def contact_table(pair: Pair, points: Mapping[str, np.ndarray]) -> pd.DataFrame:
+    """Points of the contact lines over one pitch, with load and friction."""
+    return pd.concat([frame_of(pair.mesh.lines, CONTACT), frame_of(points, LOADED)], axis=1)
+
+
+def cycle_table(pair: Pair, points: Mapping[str, np.ndarray]) -> pd.DataFrame:
+    """Loss, efficiency and friction over one pitch at the largest torque and speed."""
+    lines, levels = pair.mesh.lines, pair.file.conditions
+    speed = max(levels.speed_rpm) * RPM
+    lost = lines.over_positions(points["power_loss"])
+    sliding = points["line_load"] * lines.length * lines.contact.sliding_speed * speed
+    taken = max(levels.torque_Nm) * speed + (0.0 if pair.mesh.pinion_drives else lost)
+    return pd.DataFrame(
+        {
+            "base_pitches": (np.arange(lines.positions) + 0.5) / lines.positions,
+            "power_loss_W": lost,
+            "tooth_efficiency_percent": 100.0 * (1.0 - lost / taken),
+            "mean_friction": lost / lines.over_positions(sliding),
+        }
+    )
 
 
 def vary_table(pair: Pair) -> pd.DataFrame:

@@ -18,6 +18,9 @@ from mixedlub.skew_gears.prepare import read_pair
 GIVEN = tomllib.loads(EXAMPLE.read_text(encoding="utf-8"))
 
 
+FILES = ("map", "geometry", "contact", "mesh_cycle", "vary")
+
+
 def changed(**tables):
     """The example without [vary], with some tables or keys changed; None takes a key out."""
     given = {name: dict(value) if isinstance(value, dict) else value for name, value in GIVEN.items() if name != "vary"}
@@ -113,8 +116,13 @@ def test_files_of_the_template(tmp_path, capsys):
     assert main(["bevel", str(tmp_path / "new" / "bevel.toml"), "--out", str(tmp_path / "out")]) == 0
     shown = capsys.readouterr().out
     assert shown.count("tooth efficiency") == 9
-    tables = {name: pd.read_csv(tmp_path / "out" / f"{name}.csv") for name in ("map", "geometry", "contact", "vary")}
-    assert {path.stem for path in (tmp_path / "out" / "figures").iterdir()} == {"efficiency", "contact", "vary"}
+    tables = {name: pd.read_csv(tmp_path / "out" / f"{name}.csv") for name in FILES}
+    assert {path.stem for path in (tmp_path / "out" / "figures").iterdir()} == {
+        "efficiency",
+        "contact",
+        "mesh_cycle",
+        "vary",
+    }
     vary = tables["vary"]
     over_offset = vary[vary["varied"] == "offset_mm"]["tooth_efficiency_percent"].to_numpy()
     assert np.all(np.diff(over_offset) < 0.0)
@@ -122,6 +130,9 @@ def test_files_of_the_template(tmp_path, capsys):
     assert np.all(np.diff(over_roughness) < 0.0)
     geometry = tables["geometry"].set_index("quantity")
     assert geometry.loc["pitch_angle_deg"].tolist() == pytest.approx([21.288, 68.324], abs=0.02)
+    largest = tables["map"].iloc[-1]
+    assert tables["mesh_cycle"]["power_loss_W"].mean() == pytest.approx(largest["power_loss_W"], rel=1e-9)
+    assert tables["contact"]["hertz_pressure_MPa"].max() == pytest.approx(largest["largest_hertz_pressure_MPa"])
     found = json.loads((tmp_path / "out" / "bevel.json").read_text(encoding="utf-8"))
     assert found["schema"] == "mixedlub-bevel-result/1"
     assert [row["torque_Nm"] for row in found["map"]] == tables["map"]["torque_Nm"].tolist()
