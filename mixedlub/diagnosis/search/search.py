@@ -132,7 +132,7 @@ def search(
 
     if problem.y.size <= MANY:
         return every(problem, values)
-    rows = spread_rows(values, problem.y.size)
+    rows = spread_rows(values, problem.y.size, SUBSET)
     screen = every(problem.subset(rows), [v[rows] for v in values])
     progress(f"weighing the leaders on all {problem.y.size} readings")
     weights = screen.log_weights
@@ -189,10 +189,12 @@ def _counted_anew(residual: np.ndarray, scale: np.ndarray) -> float:
     return float(log_likelihood(residual * scale)[0].sum() - log_likelihood(residual)[0].sum())
 
 
-def spread_rows(values: list[np.ndarray], count: int) -> np.ndarray:
-    """Subset of the rows that covers the conditions evenly."""
+def spread_rows(values: list[np.ndarray], count: int, most: int) -> np.ndarray:
+    """Subset of up to ``most`` rows that covers the conditions evenly; all rows if they are fewer."""
+    if count <= most:
+        return np.arange(count)
     order = np.lexsort(values[::-1]) if values else np.arange(count)
-    edges = np.linspace(0, count, SUBSET + 1).astype(int)
+    edges = np.linspace(0, count, most + 1).astype(int)
     # One of each stretch at random: every n-th row could coincide with the levels of a condition.
     at = np.random.default_rng(SEED).integers(edges[:-1], edges[1:])
     return np.sort(order[at])
