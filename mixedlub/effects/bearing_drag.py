@@ -66,8 +66,8 @@ _LEAST_LOAD = 0.1
     r"(\text{torques in N mm, lengths in mm, }\nu\text{ in mm}^2/\text{s})",
     source="A. Palmgren, Grundlagen der Waelzlagertechnik, 1964; ISO/TR 14179-2; T. A. Harris, Rolling Bearing "
     "Analysis, for f_1 that grows with load in ball bearings; SKF General Catalogue, 2005, for rolling torque with "
-    "load^0.54; SKF, Rolling Bearings, 2018, for phi_bl and 0.12 over 0.05 in mineral oil (m = 1.4), and for a constant "
-    "coefficient of friction, 0.0010 to 0.0024",
+    "load^0.54; SKF, Rolling Bearings, 2018, for phi_bl and 0.12 over 0.05 in mineral oil (m = 1.4), and for a "
+    "constant coefficient of friction, 0.0010 to 0.0024",
     fingerprint={"load": "-", "speed": "+", "roughness": "-"},
     special_cases={
         "Palmgren": {"load_power": 1.0, "idle": 1.0, "rolling_power": 0.0, "rubbing": 0.0},
@@ -96,8 +96,8 @@ def bearing_drag(
     """Four rolling bearings add drag: one part from rolling in oil, one from the tooth force that they carry.
 
     Two bearings per shaft carry half the force each; they are as large as the pinion shaft allows. Palmgren's constant
-    and the reference force F_r = 3 kN make the form belong to SI. Without the idle torque (c_0 = 0, c_1 = 4) friction is the
-    coefficient f = 0.0024 c of load on a journal of diameter d_m.
+    and the reference force F_r = 3 kN make the form belong to SI. Without the idle torque (c_0 = 0, c_1 = 4)
+    friction is the coefficient f = 0.0024 c of load on a journal of diameter d_m.
 
     >>> gear = dict(transmitted_force=3000.0, pinion_radius=0.036, pinion_speed=157.1, gear_speed=102.7, gears_fitted=1)
     >>> palmgren = dict(strength=1.0, loaded=1.0, load_power=1.0, idle=1.0, rolling_power=0.0, rubbing=0.0)
