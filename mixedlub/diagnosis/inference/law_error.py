@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
@@ -77,19 +78,33 @@ def _quick_evidence(
     return np.asarray(gain - 0.5 * float(target @ whitened_target) - 0.5 * float(np.linalg.slogdet(inner)[1]))
 
 
-def base_error_columns(problem: Problem, null_fit: Fit, space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
-    """Columns of a smooth relative error of the base model with variance one, in standard deviations.
+@dataclass(frozen=True, eq=False)
+class BaseError:
+    """Smooth relative error of the base model: directions in which the recording can show it.
 
-    Only directions that the largest size of the error makes visible are kept.
+    ``most``: largest reading over its noise that counts.
     """
-    share = np.nan_to_num(share_of(problem, problem.run(NOTHING, null_fit.z)))
-    if not share.any():
-        return np.zeros((share.size, 0))
-    share = np.minimum(share, LARGEST_SHARE * np.median(share[share > 0.0]))
-    columns = space.columns(values, BASE_ERROR_LENGTH, interactions=len(space.axes) > 1) * share[:, None]
-    left, size, _ = np.linalg.svd(columns, full_matrices=False)
-    kept = size * max(s for s, _ in BASE_ERRORS) > LEAST_DIRECTION
-    return np.asarray(left[:, kept] * size[kept])
+
+    directions: np.ndarray
+    most: float
+
+    @classmethod
+    def of(cls, problem: Problem, null_fit: Fit, space: Coordinates, values: list[np.ndarray]) -> BaseError:
+        """Directions that the largest size of the error makes visible, from a fit of the calibrated base model."""
+        share = np.nan_to_num(share_of(problem, problem.run(NOTHING, null_fit.z)))
+        most = LARGEST_SHARE * float(np.median(share[share > 0.0])) if share.any() else 0.0
+        functions = _functions(space, values)
+        _, size, right = np.linalg.svd(functions * np.minimum(share, most)[:, None], full_matrices=False)
+        return cls(right[size * max(s for s, _ in BASE_ERRORS) > LEAST_DIRECTION].T, most)
+
+    def columns(self, problem: Problem, null_fit: Fit, space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
+        """Columns of the error at the rows of a problem with variance one, in standard deviations."""
+        share = np.nan_to_num(share_of(problem, problem.run(NOTHING, null_fit.z)))
+        return np.asarray((_functions(space, values) @ self.directions) * np.minimum(share, self.most)[:, None])
+
+
+def _functions(space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
+    return space.columns(values, BASE_ERROR_LENGTH, interactions=len(space.axes) > 1)
 
 
 def rms(net: np.ndarray) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.additions import promising_additions
 from mixedlub.diagnosis.inference.change_points import integrate_change_points
 from mixedlub.diagnosis.inference.initial_guesses import PriorDraws, fit_singles, sample
-from mixedlub.diagnosis.inference.law_error import base_error_columns, law_error_evidence
+from mixedlub.diagnosis.inference.law_error import BaseError, law_error_evidence
 from mixedlub.diagnosis.inference.likelihood import log_likelihood
 from mixedlub.diagnosis.inference.map_fit import Fit, Linear, map_fit
 from mixedlub.diagnosis.inference.nested_laws import published_gain
@@ -54,6 +55,11 @@ class Search:
     draws: tuple[PriorDraws, ...]
     untestable: tuple[PriorDraws, ...] = ()
     screen: Search | None = None
+
+    @cached_property
+    def base_error(self) -> BaseError:
+        """Error of the base model that the recording can show."""
+        return BaseError.of(self.problem, self.null_fit, self.space, self.values)
 
     @property
     def full_screen(self) -> Search:
@@ -231,7 +237,7 @@ def _scores(
     draws: Sequence[PriorDraws],
 ) -> dict[Explanation, float]:
     """Evidence of every explanation with errors of its laws, and with published laws if near the best."""
-    base = base_error_columns(problem, fits[NOTHING], space, values)
+    base = BaseError.of(problem, fits[NOTHING], space, values).columns(problem, fits[NOTHING], space, values)
     scores = {m: law_error_evidence(problem, fits[NOTHING], f, space, values, base) for m, f in fits.items()}
     odds = PriorOdds.of(s.id for s in draws)
     weights = {m: score + odds.log(m) for m, score in scores.items()}

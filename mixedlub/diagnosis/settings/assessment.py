@@ -42,7 +42,7 @@ close together predict one another whatever the law. It only ranks conditions th
 MOST_PENALTY = 20.0
 """Judgement. Largest penalty in log odds: 2e-9 leaves no doubt."""
 CHANCE_GAIN = 5.0
-"""Judgement. Gain of a found law over calibration alone in log probability on left-out levels that chance gives: odds of
+"""Judgement. Gain of a found law over calibration alone in log probability on left-out levels by chance: odds of
 150."""
 
 # Probabilities and averages
