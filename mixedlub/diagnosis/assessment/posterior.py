@@ -12,7 +12,7 @@ from mixedlub.diagnosis.assessment.mismatch_test import Mismatch
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.search.prior_odds import PriorOdds
 from mixedlub.diagnosis.search.search import Search
-from mixedlub.diagnosis.settings.assessment import FLOOR, TEST_MARGIN, TIE
+from mixedlub.diagnosis.settings.assessment import FLOOR, OUTSIDE, TEST_MARGIN, TIE
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ def posterior(search: Search, test: Mismatch, penalties: Mapping[Explanation, fl
 
     Explanations are ranked by their evidence less the ``penalties`` in log odds. Where this and the test disagree on
     nothing missing, its weight is moved just far enough to agree. Scatter beyond any noise that no explanation follows
-    counts as a discrepancy.
+    counts as a discrepancy. So does the probability that no explanation considered holds.
     """
     log = dict(search.log_weights)
     for key, log_odds_penalty in (penalties or {}).items():
@@ -73,7 +73,9 @@ def posterior(search: Search, test: Mismatch, penalties: Mapping[Explanation, fl
         log[NOTHING] = best + np.log(TEST_MARGIN)
     top = max(log.values())
     total = sum(np.exp(v - top) for v in log.values())
-    weights = {key: float(np.exp(v - top) / total) for key, v in sorted(log.items(), key=lambda item: -item[1])}
+    inside = {key: (1.0 - OUTSIDE) * float(np.exp(v - top) / total) for key, v in log.items()}
+    inside[DISCREPANCY] += OUTSIDE
+    weights = dict(sorted(inside.items(), key=lambda item: -item[1]))
     verdict = next(iter(weights))
     tied = tuple(key for key, w in weights.items() if w >= TIE * weights[verdict])
     return Posterior(weights, verdict, tied)

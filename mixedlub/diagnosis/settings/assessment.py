@@ -49,6 +49,9 @@ VALIDATED = 8
 # Probabilities and averages
 TIE = 0.1
 """Judgement. Ratio to the verdict's probability from which an explanation ties with it: ten to one."""
+OUTSIDE = 0.02
+"""Judgement. Probability that no explanation considered holds: about the share of claims above 0.9 that were wrong on
+rigs simulated by another author's laws, whatever their evidence."""
 FLOOR = 1e-6
 """Judgement. Least stated probability, and least difference from one: models are not surer."""
 TEST_MARGIN = 1.25
