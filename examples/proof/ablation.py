@@ -22,8 +22,10 @@ import numpy as np
 
 from mixedlub.case.folder import read_case
 from mixedlub.case.forward import Forward
-from mixedlub.diagnosis.assessment import cross_validation, mismatch_test, verdict
+from mixedlub.diagnosis.assessment import mismatch_test, verdict
+from mixedlub.diagnosis.assessment.cross_validation import LevelsOut
 from mixedlub.diagnosis.discrepancy import model
+from mixedlub.diagnosis.inference import law_error
 from mixedlub.diagnosis.search import noise_selection, search
 from mixedlub.effects import catalogue
 from mixedlub.recording.readings import rows_of
@@ -36,12 +38,11 @@ FORMS = ("box", "wave", "peak", "step", "delay")
 Switch = tuple[Any, str, Any]
 WEIGHED_AGAIN: dict[str, Switch] = {
     "published laws within an effect": (search, "published_gain", lambda *a: 0.0),
-    "error of form": (search, "form_error_evidence", lambda problem, stiff, fit, *a: fit.evidence),
+    "errors of laws": (search, "law_error_evidence", lambda problem, stiff, fit, *a: fit.evidence),
+    "errors of the base laws": (law_error, "BASE_ERRORS", ((0.0, 1.0),)),
 }
 JUDGED_AGAIN: dict[str, Switch] = {
-    "penalty of cross-validation": (cross_validation.HeldOut, "log_odds_penalty", lambda held, rms: 0.0),
-    "discrepancy cross-validated": (cross_validation.HeldOut, "penalty_against", lambda held, other: 0.0),
-    "overdispersion": (cross_validation.HeldOut, "overdispersion", property(lambda held: 1.0)),
+    "effects that earn their place": (verdict, "_unearned", lambda *a: 0.0),
     "Bayes factor bounds p": (mismatch_test, "BAYES_FACTOR_MARGIN", 1e300),
     "scatter beyond any noise": (mismatch_test, "beyond_noise", lambda found, times, test: test),
     "any unstated noise in the test": (mismatch_test, "UNSTATED_NOISE_SCALES", (1.0,)),
@@ -53,7 +54,7 @@ JUDGED_AGAIN: dict[str, Switch] = {
 def answered(truth: Truth, noise: Any, found: Any) -> Answer:
     """The answer that a search leads to."""
     chosen, test = mismatch_test.mismatch_against_null(replace(noise, search=found), 0.01)
-    judged, _ = verdict.judge(chosen, test)
+    judged, _ = verdict.judge(chosen, test, LevelsOut.of(chosen))
     names = [frozenset(key.ids) for key in (judged.verdict, *judged.tied)]
     return Answer(
         case=truth.case,

@@ -27,7 +27,6 @@ from mixedlub.diagnosis.assessment.answer_checks import (
     answer_warnings,
     failed_warning,
     noise_notes,
-    overdispersion_warning,
     setup_notes,
 )
 from mixedlub.diagnosis.assessment.campaign import Campaign
@@ -321,7 +320,7 @@ def _cautions(
     read = (case.quantity, f"{case.quantity}_sd", case.system.recording.check)
     taken_at = Table({n: v for n, v in rows.columns.items() if n not in read}, rows.source)
     at_one_place = judged.verdict == DISCREPANCY and search.discrepancy.best.at is not None
-    said = [*overdispersion_warning(judged), *failed_warning(judged, problem.y.size)]
+    said = failed_warning(judged, problem.y.size)
     said += answer_warnings(judged.verdict, kept, taken_at, problem.inverse(problem.y), predicted, wrong, at_one_place)
     if judged.verdict.is_discrepancy:
         return said

@@ -38,6 +38,14 @@ _LEAST_LOAD = 0.1
             "exponent of load in that part: 1 for rollers, about 1.5 for balls",
             symbol="a",
         ),
+        Parameter(
+            "idle",
+            "-",
+            Uniform(0.0, 1.0),
+            "share of the torque from rolling in oil: 0 where friction is a constant share of load",
+            symbol="c_0",
+            nominal=1.0,
+        ),
         Parameter("rolling_power", "-", Uniform(0.0, 0.54), "exponent of load in the rolling torque", symbol="b"),
         Parameter(
             "rubbing",
@@ -49,7 +57,7 @@ _LEAST_LOAD = 0.1
         ),
     ),
     equation=r"P_L \leftarrow P_L + c\,\sum_{i=1,2} 2\,\omega_i\,"
-    r"[x^b M_{0,i} + \chi c_1 x^{a-1} (1 + m\,\phi_{bl,i}) M_1],\quad "
+    r"[c_0 x^b M_{0,i} + \chi c_1 x^{a-1} (1 + m\,\phi_{bl,i}) M_1],\quad "
     r"x = \max(\chi F_t/F_r,\ 0.1),\ F_r = 3\,\text{kN},\ "
     r"M_1 = f_1\,\tfrac12 F_t d_m,\ f_1 = 0.0003,\ d_m = 1.25\,r_1,\quad "
     r"M_{0,i} = 2\times10^{-7}\,\max(N_i,\ 2000)^{2/3} d_m^3,\ "
@@ -58,9 +66,13 @@ _LEAST_LOAD = 0.1
     r"(\text{torques in N mm, lengths in mm, }\nu\text{ in mm}^2/\text{s})",
     source="A. Palmgren, Grundlagen der Waelzlagertechnik, 1964; ISO/TR 14179-2; T. A. Harris, Rolling Bearing "
     "Analysis, for f_1 that grows with load in ball bearings; SKF General Catalogue, 2005, for rolling torque with "
-    "load^0.54; SKF, Rolling Bearings, 2018, for phi_bl and 0.12 over 0.05 in mineral oil (m = 1.4)",
+    "load^0.54; SKF, Rolling Bearings, 2018, for phi_bl and 0.12 over 0.05 in mineral oil (m = 1.4), and for a "
+    "constant coefficient of friction, 0.0010 to 0.0024",
     fingerprint={"load": "-", "speed": "+", "roughness": "-"},
-    special_cases={"Palmgren": {"load_power": 1.0, "rolling_power": 0.0, "rubbing": 0.0}},
+    special_cases={
+        "Palmgren": {"load_power": 1.0, "idle": 1.0, "rolling_power": 0.0, "rubbing": 0.0},
+        "constant coefficient": {"loaded": 4.0, "load_power": 1.0, "idle": 0.0, "rolling_power": 0.0, "rubbing": 0.0},
+    },
     separated_by="the bearings alone on their rig, or their own oil supply; a change of flank finish leaves it "
     "where it was",
 )
@@ -77,16 +89,18 @@ def bearing_drag(
     strength: float,
     loaded: float,
     load_power: float,
+    idle: float,
     rolling_power: float,
     rubbing: float,
 ) -> np.ndarray:
     """Four rolling bearings add drag: one part from rolling in oil, one from the tooth force that they carry.
 
     Two bearings per shaft carry half the force each; they are as large as the pinion shaft allows. Palmgren's constant
-    and the reference force F_r = 3 kN make the form belong to SI.
+    and the reference force F_r = 3 kN make the form belong to SI. Without the idle torque (c_0 = 0, c_1 = 4)
+    friction is the coefficient f = 0.0024 c of load on a journal of diameter d_m.
 
     >>> gear = dict(transmitted_force=3000.0, pinion_radius=0.036, pinion_speed=157.1, gear_speed=102.7, gears_fitted=1)
-    >>> palmgren = dict(strength=1.0, loaded=1.0, load_power=1.0, rolling_power=0.0, rubbing=0.0)
+    >>> palmgren = dict(strength=1.0, loaded=1.0, load_power=1.0, idle=1.0, rolling_power=0.0, rubbing=0.0)
     >>> round(bearing_drag(0.0, **gear, viscosity=0.01275, oil_density=850.0, **palmgren))   # 15.7 kW
     17
     """
@@ -97,6 +111,6 @@ def bearing_drag(
     drag = 0.0
     for speed in (pinion_speed, gear_speed):
         oil = (viscosity, oil_density, speed, diameter)
-        by_oil = size**rolling_power * palmgren_idle_torque(*oil)
+        by_oil = idle * size**rolling_power * palmgren_idle_torque(*oil)
         drag = drag + 2.0 * speed * (by_oil + by_load * (1.0 + rubbing * bearing_asperity_share(*oil)))
     return power_loss + strength * drag

@@ -11,7 +11,6 @@ import pytest
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
 from mixedlub.chain.effect import Effect
-from mixedlub.diagnosis.assessment.cross_validation import HeldOut
 from mixedlub.diagnosis.assessment.mismatch_test import mismatch_test
 from mixedlub.diagnosis.assessment.posterior import posterior
 from mixedlub.diagnosis.discrepancy.modulated import (
@@ -125,11 +124,6 @@ def test_a_name_that_fails_on_levels_left_out_loses_its_place() -> None:
     after = posterior(found, test, {Explanation.of("churning"): 60.0})
     assert after.verdict != Explanation.of("churning")
     assert after.weights[Explanation.of("churning")] < 1e-6
-
-
-@pytest.mark.parametrize(("after", "rows", "loses"), [(1.0, 150, False), (1.3, 150, False), (2.2, 150, True)])
-def test_the_demerit_spares_what_chance_and_another_form_leave(after: float, rows: int, loses: bool) -> None:
-    assert (HeldOut(3.0, after, "", 5, rows, after, 0.0, 0.0).log_odds_penalty(1.0) > 0.0) is loses
 
 
 @pytest.mark.long

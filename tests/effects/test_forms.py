@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from mixedlub.effects import catalogue
 from mixedlub.effects.bearing_drag import bearing_drag
 from mixedlub.effects.churning import churning
 from mixedlub.effects.dynamic_load import dynamic_load
@@ -29,7 +30,7 @@ STRAIGHT = {
     "down_with_temperature": 0.0,
     "up_with_temperature": 0.0,
 }
-BEARINGS = {"strength": 1.0, "loaded": 1.0, "load_power": 1.0, "rolling_power": 0.0}
+BEARINGS = {"strength": 1.0, "loaded": 1.0, "load_power": 1.0, "idle": 1.0, "rolling_power": 0.0}
 GEAR = {"transmitted_force": 3000.0, "pinion_radius": 0.036, "gears_fitted": 1, "oil_density": 850.0}
 
 
@@ -68,6 +69,17 @@ def test_bearings_rub_where_they_have_no_film_and_only_there(speed: float, rise:
     without, rubbing = (bearing_drag(0.0, **GEAR, **motion, **BEARINGS, rubbing=m) for m in (0.0, 1.4))
     loaded = without - bearing_drag(0.0, **GEAR, **motion, **{**BEARINGS, "loaded": 0.0}, rubbing=0.0)
     assert (rubbing - without) / loaded == pytest.approx(rise, abs=0.02)
+
+
+@pytest.mark.literature(
+    "SKF (2018), Rolling Bearings, constant coefficient of friction: 0.0015 for deep groove ball bearings"
+)
+def test_bearings_of_a_constant_coefficient_lose_that_share_of_load_at_any_speed() -> None:
+    values = catalogue()["bearing_drag"].special_cases["constant coefficient"]
+    motion = {"pinion_speed": np.array([5.0, 500.0]), "gear_speed": 0.0, "viscosity": np.array([0.3, 0.003])}
+    torque = bearing_drag(0.0, **GEAR, **motion, **values, strength=0.0015 / 0.0024) / motion["pinion_speed"]
+    journal = 1.25 * GEAR["pinion_radius"]
+    assert torque == pytest.approx(0.0015 * GEAR["transmitted_force"] * journal / 2.0, rel=1e-12)
 
 
 @pytest.mark.parametrize("saturation", [-1e4, -6.0, -1e-10, 0.0, 1e-10, 0.7, 8.0, 1e4])

@@ -13,7 +13,7 @@ from mixedlub.report.effect_pages import shown
 PROTOTYPE = {
     "roughness_lay": {"lay": 1.0, "onset": 0.15, "decay": 1.0, "saturation": 0.0},
     "micro_ehl": {"viscous": 1.0, "spread": 0.0},
-    "bearing_drag": {"strength": 1.0, "load_power": 1.0, "rolling_power": 0.0, "rubbing": 0.0},
+    "bearing_drag": {"strength": 1.0, "load_power": 1.0, "idle": 1.0, "rolling_power": 0.0, "rubbing": 0.0},
     "boundary_film_temperature": {"flash": 0.0},
 }
 """Parameters of the prototype where they are not the middle of the priors: h + 0.15 sigma, all moments

@@ -40,7 +40,7 @@ def test_losses_of_the_shafts_stay(forward, name):
 
 
 def test_bearings_carry_no_tooth_force(forward):
-    size = {"strength": 1.0, "load_power": 1.3, "rolling_power": 0.3, "rubbing": 1.4}
+    size = {"strength": 1.0, "load_power": 1.3, "idle": 1.0, "rolling_power": 0.3, "rubbing": 1.4}
     loaded, half = ({"bearing_drag": {**size, "loaded": part}} for part in (1.0, 0.5))
     added = forward.predict(None, loaded) - forward.predict(None, half)
     assert np.all(added[GEARED] > 0.0)

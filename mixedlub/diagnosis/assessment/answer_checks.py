@@ -21,7 +21,6 @@ from mixedlub.diagnosis.settings.assessment import (
     MANY_OUTLIERS,
     MOST_OF_LEVEL,
     OPPOSITE_WITHIN,
-    OVERDISPERSION_REPORTED,
     POOR_PREDICTION,
     RARE,
 )
@@ -175,18 +174,6 @@ def answer_warnings(
         text = f"the answer predicts left-out levels poorly ({error}): do not extrapolate"
         warnings.append(finding("answer_predicts_poorly", text))
     return warnings
-
-
-def overdispersion_warning(judged: Posterior) -> list[Finding]:
-    """Warning of lowered odds between effects if left-out levels are overdispersed."""
-    if judged.overdispersion < OVERDISPERSION_REPORTED:
-        return []
-    times = np.sqrt(judged.overdispersion)
-    text = (
-        f"left-out levels are predicted {times:.2g} times worse than expected: the explanation is incomplete, and the "
-        "odds between effects were lowered"
-    )
-    return [finding("explanation_incomplete", text)]
 
 
 def failed_warning(judged: Posterior, count: int) -> list[Finding]:

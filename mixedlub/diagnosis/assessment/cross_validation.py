@@ -18,16 +18,11 @@ from mixedlub.diagnosis.inference.map_fit import covariance, linear_fit, map_fit
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.assessment import (
-    CHANCE_GAIN,
     LEAST_FOLDS,
-    LEAST_MISMATCH,
     MOST_FOLDS,
-    MOST_PENALTY,
-    TOLERATED_SHARE,
     UNORDERED_FOLDS,
     WIDE_SPAN,
 )
-from mixedlub.diagnosis.settings.inference import SIGNIFICANT
 from mixedlub.recording.conditions import is_constant
 from mixedlub.recording.set_points import set_points
 
@@ -36,8 +31,8 @@ from mixedlub.recording.set_points import set_points
 class HeldOut:
     """Rms of (recorded - predicted)/sd on left-out levels, with calibration alone and with the verdict.
 
-    ``standardised_rms`` is the rms of the verdict with the prediction variance added to the noise, ``score`` the log
-    probability of the readings under this sum, ``score_before`` the log probability with calibration alone.
+    ``score`` is the log probability of the readings with the prediction variance of the verdict added to the noise,
+    ``score_before`` the log probability with calibration alone.
     """
 
     before: float
@@ -45,7 +40,6 @@ class HeldOut:
     split: str
     folds: int
     readings: int
-    standardised_rms: float
     score: float
     score_before: float
 
@@ -53,44 +47,6 @@ class HeldOut:
         """The same errors in standard deviations of a single reading."""
         times = float(np.sqrt(n_per_effective))
         return replace(self, before=times * self.before, after=times * self.after)
-
-    @property
-    def overdispersion(self) -> float:
-        r"""Overdispersion of left-out readings, :math:`\hat c = s^2/(1 + 2\sqrt{2/n})`; at least 1.
-
-        Noise and prediction variance are known. An excess beyond two standard errors means that log probabilities are
-        overconfident by this factor: J.-D. Lebreton, K. P. Burnham, J. Clobert, D. R. Anderson, Ecol. Monogr. 62 (1992)
-        67.
-
-        >>> [round(HeldOut(9.0, s, "", 5, 200, s, 0.0, 0.0).overdispersion, 1) for s in (1.0, 2.0)]
-        [1.0, 3.3]
-        """
-        return float(max(self.standardised_rms**2 / (1.0 + SIGNIFICANT * np.sqrt(2.0 / self.readings)), 1.0))
-
-    def log_odds_penalty(self, rms: float) -> float:
-        """Penalty in log odds of effects that leave much of the mismatch on left-out levels.
-
-        A law in a slightly wrong form still explains most of it. Effects that fit all readings but fail there stand in
-        for another law. ``rms`` is the rms residual of the fit to all readings. Two standard errors of its square are
-        allowed for chance, and prediction variance is not counted as failure.
-
-        >>> well, badly = (HeldOut(3.0, rms, "", 5, 200, rms, 0.0, 0.0) for rms in (1.1, 2.6))
-        >>> well.log_odds_penalty(1.0), badly.log_odds_penalty(1.0) > 5.0
-        (0.0, True)
-        """
-        noise = max(rms, 1.0) ** 2
-        missing = max(self.before**2 - noise, LEAST_MISMATCH)
-        unexplained = max(self.standardised_rms**2 - noise * (1.0 + SIGNIFICANT * np.sqrt(2.0 / self.readings)), 0.0)
-        return float(min(MOST_PENALTY * max(unexplained / missing - TOLERATED_SHARE, 0.0), MOST_PENALTY))
-
-    def penalty_against(self, name: HeldOut) -> float:
-        """Penalty in log odds of the discrepancy if effects predict left-out levels better.
-
-        The discrepancy fits any readings, so prediction decides. Effects that predict no better than calibration alone
-        give no penalty.
-        """
-        gain = min(name.score - self.score, name.score - name.score_before)
-        return float(np.clip(gain - CHANCE_GAIN, 0.0, MOST_PENALTY))
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,7 +102,6 @@ class LevelsOut:
             f"leave one level of {self.name} out" if self.name else "leave every fifth reading out",
             len(self.folds),
             int(used.sum()),
-            float(np.sqrt(np.mean((after / spread)[used] ** 2))),
             float((log_likelihood(after / spread)[0] - np.log(spread)).sum()),
             float(log_likelihood(self.before)[0].sum()),
         )

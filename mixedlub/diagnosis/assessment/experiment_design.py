@@ -86,7 +86,7 @@ class Rivals:
     def at(self, table: Table) -> list[Joint]:
         """Joint predictions of the rivals at the rows of a table."""
         with collected():
-            return joint_predictions(self.search, self.judged, self.keys, self.fits, table)
+            return joint_predictions(self.search, self.keys, self.fits, table)
 
 
 def rivals_of(search: Search, judged: Posterior, refined: dict[Explanation, Refined]) -> Rivals:

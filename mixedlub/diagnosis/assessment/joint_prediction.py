@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.assessment.prediction import NewRows, Prediction, Refined, refine
 from mixedlub.diagnosis.explanation import NOTHING, Explanation
-from mixedlub.diagnosis.search.search import Search, n_inexact, rms
+from mixedlub.diagnosis.inference.law_error import n_inexact, rms
+from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.assessment import LEAST_SHARED
-from mixedlub.diagnosis.settings.search import FORM_ERROR_LEAST, FORM_ERROR_LENGTH
+from mixedlub.diagnosis.settings.law_error import FORM_ERROR_LEAST, FORM_ERROR_LENGTH
 from mixedlub.schema.table import Table
 
 
@@ -36,16 +36,15 @@ def spread_fits(search: Search, fits: Sequence[Refined]) -> list[Refined]:
 
 
 def joint_predictions(
-    search: Search, judged: Posterior, rivals: Sequence[Explanation], refined: Sequence[Refined | None], table: Table
+    search: Search, rivals: Sequence[Explanation], refined: Sequence[Refined | None], table: Table
 ) -> list[Joint]:
     """Joint predictions of rivals at the rows of a table; a rival without a fit is the discrepancy.
 
-    Noise counts as the diagnosis will count it: autocorrelated readings for less than one, and the overdispersion of
-    the answer as a larger variance.
+    Noise counts as the diagnosis will count it: autocorrelated readings for less than one.
     """
     rows = NewRows(search, table)
     distance = _distances(search, rows)
-    white = rows.problem.sd**2 * max(judged.overdispersion, 1.0)
+    white = rows.problem.sd**2
     each: list[tuple[Prediction, np.ndarray]] = []
     for key, fit in zip(rivals, refined, strict=True):
         prediction = rows.of_discrepancy() if fit is None else rows.of_fit(fit)

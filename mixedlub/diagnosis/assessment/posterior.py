@@ -12,12 +12,12 @@ from mixedlub.diagnosis.assessment.mismatch_test import Mismatch
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.search.prior_odds import PriorOdds
 from mixedlub.diagnosis.search.search import Search
-from mixedlub.diagnosis.settings.assessment import FLOOR, TEST_MARGIN, TIE
+from mixedlub.diagnosis.settings.assessment import FLOOR, OUTSIDE, TEST_MARGIN, TIE
 
 
 @dataclass(frozen=True)
 class Posterior:
-    """Probability of every explanation, the verdict first; ``overdispersion`` divided the log odds between effects.
+    """Probability of every explanation, the verdict first.
 
     ``failed``: the most probable explanation but for its outliers, with their number, if it names nothing therefore.
     """
@@ -25,7 +25,6 @@ class Posterior:
     weights: Mapping[Explanation, float]
     verdict: Explanation
     tied: tuple[Explanation, ...]
-    overdispersion: float = 1.0
     failed: tuple[Explanation, int] | None = None
 
     def inclusion(self, search: Search) -> dict[str, float]:
@@ -54,26 +53,16 @@ def prior_of_untestable(search: Search) -> dict[str, float]:
     return {s.id: odds.chance(s.id) for s in search.untestable}
 
 
-def posterior(
-    search: Search, test: Mismatch, penalties: Mapping[Explanation, float] | None = None, overdispersion: float = 1.0
-) -> Posterior:
+def posterior(search: Search, test: Mismatch, penalties: Mapping[Explanation, float] | None = None) -> Posterior:
     """Normalised weights, in agreement with the test against nothing missing.
 
-    Explanations are ranked by their evidence less the ``penalties`` of cross-validation. Where this and the test
-    disagree on nothing missing, its weight is moved just far enough to agree. Scatter beyond any noise that no
-    explanation follows counts as a discrepancy. Where even the best effects are overdispersed on left-out levels, log
-    odds between effects are divided by ``overdispersion``; their odds against the other explanations stay.
+    Explanations are ranked by their evidence less the ``penalties`` in log odds. Where this and the test disagree on
+    nothing missing, its weight is moved just far enough to agree. Scatter beyond any noise that no explanation follows
+    counts as a discrepancy. So does the probability that no explanation considered holds.
     """
     log = dict(search.log_weights)
     for key, log_odds_penalty in (penalties or {}).items():
         log[key] -= log_odds_penalty
-    names = [key for key in log if key.effects]
-    if names and overdispersion > 1.0:
-        relative = {k: search.scores[k] - (penalties or {}).get(k, 0.0) for k in names}
-        foremost = max(log[key] for key in names)
-        log |= {key: log[key] + value * (1.0 / overdispersion - 1.0) for key, value in relative.items()}
-        shift = foremost - max(log[key] for key in names)
-        log |= {key: log[key] + shift for key in names}
     if test.unexplained_scatter and log[NOTHING] > log[DISCREPANCY]:
         log[NOTHING], log[DISCREPANCY] = log[DISCREPANCY], log[NOTHING]
     others = [value for key, value in log.items() if key != NOTHING]
@@ -84,7 +73,9 @@ def posterior(
         log[NOTHING] = best + np.log(TEST_MARGIN)
     top = max(log.values())
     total = sum(np.exp(v - top) for v in log.values())
-    weights = {key: float(np.exp(v - top) / total) for key, v in sorted(log.items(), key=lambda item: -item[1])}
+    inside = {key: (1.0 - OUTSIDE) * float(np.exp(v - top) / total) for key, v in log.items()}
+    inside[DISCREPANCY] += OUTSIDE
+    weights = dict(sorted(inside.items(), key=lambda item: -item[1]))
     verdict = next(iter(weights))
     tied = tuple(key for key, w in weights.items() if w >= TIE * weights[verdict])
-    return Posterior(weights, verdict, tied, overdispersion)
+    return Posterior(weights, verdict, tied)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import product
 
 import numpy as np
 
@@ -18,11 +19,12 @@ from mixedlub.diagnosis.inference.change_points import (
     change_point_posterior,
     drop_columns,
 )
+from mixedlub.diagnosis.inference.law_error import form_error_columns, n_inexact, rms
 from mixedlub.diagnosis.inference.map_fit import Fit, covariance, damped_update, linear_fit
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.drift import correlated_error_variance
-from mixedlub.diagnosis.search.search import Search, form_error_columns, n_inexact, rms
-from mixedlub.diagnosis.settings.search import FORM_ERRORS
+from mixedlub.diagnosis.search.search import Search
+from mixedlub.diagnosis.settings.law_error import BASE_ERRORS, FORM_ERRORS
 from mixedlub.recording.noise import fit_noise_model, transformed_noise
 from mixedlub.schema.table import Table
 
@@ -49,15 +51,17 @@ class Prediction:
 
 @dataclass(frozen=True, eq=False)
 class Refined:
-    """A fit with an error of form; ``change_points`` hold the posteriors that the covariance lacks.
+    """A fit with errors of its laws; ``change_points`` hold the posteriors that the covariance lacks.
 
-    ``bend`` is the most probable relative size of the error of form, ``bend_rms`` the root mean square over all sizes.
+    ``bend`` is the most probable relative size of the error of form, ``bend_rms`` the root mean square over all sizes,
+    ``base_error`` the most probable relative size of the error of the base model.
     """
 
     fit: Fit
     z: np.ndarray
     bend: float
     bend_rms: float
+    base_error: float
     coefficients: np.ndarray
     covariance: np.ndarray
     residual: np.ndarray
@@ -72,44 +76,55 @@ class Refined:
 
 
 def refine(search: Search, fit: Fit, sizes: Sequence[tuple[float, float]] = FORM_ERRORS) -> Refined:
-    """Fit the error of form together with the coordinates; ``sizes`` are its relative sizes with their weights."""
+    """Fit errors of form and of the base model together with the coordinates.
+
+    ``sizes`` are relative sizes of the error of form with their weights.
+    """
     problem = search.problem
     at_change_points, sloping = change_point_coordinates(problem, fit.explanation), fit
     fit = replace(fit, slopes=drop_columns(fit.slopes, at_change_points))
     fixed = np.hstack([fit.slopes, problem.shared])
     net = (fit.prediction - search.null_fit.prediction) / problem.sd
     typical = rms(net)
-    columns = form_error_columns(net, typical, search.space, search.values)
-    best, best_score, scores = None, -np.inf, []
-    for size, weight in sizes:
-        all_columns = np.hstack([fixed, size * columns]) if size and columns.size else fixed
-        linear = linear_fit(fit.anchor, all_columns, fit.weight)
-        score = linear.evidence + np.log(weight)
-        scores.append(score)
+    form = form_error_columns(net, typical, search.space, search.values)
+    base = search.base_error.columns(problem, search.null_fit, search.space, search.values)
+    sizes = sizes if form.size and n_inexact(problem, fit.explanation) else ((0.0, 1.0),)
+    best, best_score, scores = None, -np.inf, np.zeros((len(sizes), len(BASE_ERRORS)))
+    for (i, (size, weight)), (j, (base_size, base_weight)) in product(enumerate(sizes), enumerate(BASE_ERRORS)):
+        columns = np.hstack([fixed, base_size * base, size * form])
+        linear = linear_fit(fit.anchor, columns, fit.weight)
+        scores[i, j] = score = linear.evidence + np.log(weight) + np.log(base_weight)
         if score > best_score:
-            best, best_score, used = linear, score, all_columns
-            form_error_size = size if columns.size else 0.0
-        if not n_inexact(search.problem, fit.explanation):
-            break
+            best, best_score, used, form_error_size, base_error_size = linear, score, columns, size, base_size
     assert best is not None
-    shares = np.exp(np.array(scores) - best_score)
-    squares = np.array([size for size, _ in sizes[: len(scores)]]) ** 2
-    bend_rms = float(np.sqrt(shares @ squares / shares.sum())) if columns.size else 0.0
+    shares = np.exp(scores - best_score).sum(axis=1)
+    squares = np.array([size for size, _ in sizes]) ** 2
+    bend_rms = float(np.sqrt(shares @ squares / shares.sum()))
     spread = covariance(used, best.weight)
     spread[at_change_points, at_change_points] = 0.0
     target_z = best.coefficients[: fit.z.size].copy()
     target_z[at_change_points] = fit.z[at_change_points]
     change_points = change_point_posterior(problem, sloping, used[:, fixed.shape[1] :])
 
-    def form_errors(prediction: np.ndarray) -> np.ndarray:
-        if not form_error_size:
-            return np.zeros((prediction.size, 0))
+    def law_errors(prediction: np.ndarray) -> np.ndarray:
         net = (prediction - search.null_fit.prediction) / problem.sd
-        return np.asarray(form_error_size * form_error_columns(net, typical, search.space, search.values))
+        bent = form_error_columns(net, typical, search.space, search.values)
+        return np.hstack([base_error_size * base, form_error_size * bent])
 
-    z, form_error = damped_update(problem, fit.explanation, fit.z, target_z, fit.common, form_errors, fit.weight)
-    coefficients = np.concatenate([z, best.coefficients[z.size : fixed.shape[1]], form_error.coefficients])
-    return Refined(fit, z, form_error_size, bend_rms, coefficients, spread, form_error.residual, typical, change_points)
+    z, errors = damped_update(problem, fit.explanation, fit.z, target_z, fit.common, law_errors, fit.weight)
+    coefficients = np.concatenate([z, best.coefficients[z.size : fixed.shape[1]], errors.coefficients])
+    return Refined(
+        fit,
+        z,
+        form_error_size,
+        bend_rms,
+        base_error_size,
+        coefficients,
+        spread,
+        errors.residual,
+        typical,
+        change_points,
+    )
 
 
 class NewRows:
@@ -145,14 +160,17 @@ class NewRows:
         gain, variances = average_over_change_points(
             refined.change_points, z, partial(self.problem.predict, fit.explanation), mean
         )
-        base = self.problem.base(z)
-        columns = [slopes, np.zeros((len(self.table), self.search.problem.shared.shape[1]))]
-        if refined.bend:
-            net = (mean - self.problem.predict(NOTHING, self.search.null_fit.z)) / self.problem.sd
-            form_error = refined.bend * form_error_columns(net, refined.typical, self.search.space, self.values)
-            columns.append(form_error)
-            mean = mean + self.problem.sd * (form_error @ refined.coefficients[-form_error.shape[1] :])
-        all_columns = np.hstack(columns)
+        search = self.search
+        shared = np.zeros((len(self.table), search.problem.shared.shape[1]))
+        base_error = search.base_error.columns(self.problem, search.null_fit, search.space, self.values)
+        net = (mean - self.problem.predict(NOTHING, search.null_fit.z)) / self.problem.sd
+        form_error = form_error_columns(net, refined.typical, search.space, self.values)
+        errors = np.hstack([refined.base_error * base_error, refined.bend * form_error])
+        weights = refined.coefficients[z.size + shared.shape[1] :]
+        of_base = self.problem.sd * (errors[:, : base_error.shape[1]] @ weights[: base_error.shape[1]])
+        base = self.problem.base(z) + of_base
+        mean = mean + self.problem.sd * (errors @ weights)
+        all_columns = np.hstack([slopes, shared, errors])
         variance = np.einsum("ij,jk,ik->i", all_columns, refined.covariance, all_columns) * self.problem.sd**2
         lean = variances[1:] - variances[0]
         spread = self._shared(all_columns, refined.covariance)

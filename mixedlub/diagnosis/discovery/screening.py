@@ -108,9 +108,7 @@ def price(c: Candidate, count: int) -> float:
 def screened(search: Search, every: Sequence[Variable]) -> list[Candidate]:
     """Candidates by their log posterior over none, best first."""
     problem, base = search.problem, search.discrepancy.base
-    rows = np.arange(problem.y.size)
-    if rows.size > SCREENED_ROWS:
-        rows = rows[spread_rows(search.values, rows.size)][:: max(1, -(-rows.size // SCREENED_ROWS))]
+    rows = spread_rows(search.values, problem.y.size, SCREENED_ROWS)
     fixed = np.hstack([base.slopes, problem.shared])[rows]
     weight, target = search.discrepancy.fit.weight[rows], base.anchor[rows]
     singles = [term for v in every for term in single_terms(v)]

@@ -35,7 +35,7 @@ class TypicalSizes:
     @classmethod
     def of(cls, problem: Problem, base: Run) -> TypicalSizes:
         """The units of a recording, from a run of the base model."""
-        share = _share(problem, base)
+        share = share_of(problem, base)
         return cls(float(np.median(share[share > 0.0])) if share.any() else 1.0, float(np.median(problem.sd)))
 
 
@@ -55,7 +55,7 @@ def scaling_of(problem: Problem, base: Run, typical: TypicalSizes, name: str) ->
     if name == THERMAL_LAG:
         return np.nan_to_num(thermal_lag(problem, base) / problem.sd)
     if name == READING:
-        return np.nan_to_num(_share(problem, base) / typical.share)
+        return np.nan_to_num(share_of(problem, base) / typical.share)
     slope = log_slope(problem, base, name)
     return np.zeros(problem.y.size) if slope is None else np.nan_to_num(slope / problem.sd, posinf=0.0, neginf=0.0)
 
@@ -84,7 +84,7 @@ def thermal_lag(problem: Problem, base: Run) -> np.ndarray:
     return problem.transform(lagged.predict(values)) - base.prediction
 
 
-def _share(problem: Problem, base: Run) -> np.ndarray:
+def share_of(problem: Problem, base: Run) -> np.ndarray:
     """First-order change of the transformed reading by a factor e, in standard deviations."""
     if problem.case.kind.logarithmic:
         return 1.0 / problem.sd

@@ -21,7 +21,7 @@ from mixedlub.diagnosis.search.noise_inflation import (
 )
 from mixedlub.diagnosis.search.search import Progress, Search, continued, search, spread_rows
 from mixedlub.diagnosis.search.setup_error import search_setup_error
-from mixedlub.diagnosis.settings.search import MANY
+from mixedlub.diagnosis.settings.search import MANY, SUBSET
 from mixedlub.recording.conditions import SERIES, coordinates
 from mixedlub.recording.correlated_error import UNCORRELATED, CorrelatedError
 from mixedlub.recording.noise import estimated, is_stated, repeated
@@ -75,7 +75,7 @@ def search_under_noise(case: Case, forward: Forward, exclude: Sequence[str], pro
         return searched(Problem.of(case, forward, n_per_effective, correlated_error), values)
 
     count = len(rows_of(case))
-    few = spread_rows(values, count) if count > MANY else None
+    few = spread_rows(values, count, SUBSET) if count > MANY else None
 
     def seek(case: Case, near: Search | None = None) -> Search:
         problem = Problem.of(case, forward)

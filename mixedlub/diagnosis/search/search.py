@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations
+from functools import cached_property
 
 import numpy as np
 
@@ -13,8 +13,9 @@ from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.additions import promising_additions
 from mixedlub.diagnosis.inference.change_points import integrate_change_points
 from mixedlub.diagnosis.inference.initial_guesses import PriorDraws, fit_singles, sample
+from mixedlub.diagnosis.inference.law_error import BaseError, law_error_evidence
 from mixedlub.diagnosis.inference.likelihood import log_likelihood
-from mixedlub.diagnosis.inference.map_fit import Fit, Linear, linear_fit, map_fit
+from mixedlub.diagnosis.inference.map_fit import Fit, Linear, map_fit
 from mixedlub.diagnosis.inference.nested_laws import published_gain
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.prior_odds import PriorOdds
@@ -29,19 +30,9 @@ from mixedlub.diagnosis.settings.inference import (
 )
 from mixedlub.diagnosis.settings.search import (
     AFFECTED,
-    FORM_ERROR_FUNCTIONS,
-    FORM_ERROR_GAIN_CAP,
-    FORM_ERROR_GAIN_FLOOR,
-    FORM_ERROR_GAIN_SHARE,
-    FORM_ERROR_LEAST,
-    FORM_ERROR_LENGTH,
-    FORM_ERROR_PRODUCTS,
-    FORM_ERRORS,
     MANY,
     PUBLISHED_WITHIN,
     REFITTED_ON_ALL,
-    SIGNED_FORM_ERROR_FUNCTIONS,
-    SIGNED_FORM_ERROR_LENGTH,
     SUBSET,
 )
 from mixedlub.recording.conditions import Coordinates
@@ -64,6 +55,11 @@ class Search:
     draws: tuple[PriorDraws, ...]
     untestable: tuple[PriorDraws, ...] = ()
     screen: Search | None = None
+
+    @cached_property
+    def base_error(self) -> BaseError:
+        """Error of the base model that the recording can show."""
+        return BaseError.of(self.problem, self.null_fit, self.space, self.values)
 
     @property
     def full_screen(self) -> Search:
@@ -132,7 +128,7 @@ def search(
 
     if problem.y.size <= MANY:
         return every(problem, values)
-    rows = spread_rows(values, problem.y.size)
+    rows = spread_rows(values, problem.y.size, SUBSET)
     screen = every(problem.subset(rows), [v[rows] for v in values])
     progress(f"weighing the leaders on all {problem.y.size} readings")
     weights = screen.log_weights
@@ -189,10 +185,12 @@ def _counted_anew(residual: np.ndarray, scale: np.ndarray) -> float:
     return float(log_likelihood(residual * scale)[0].sum() - log_likelihood(residual)[0].sum())
 
 
-def spread_rows(values: list[np.ndarray], count: int) -> np.ndarray:
-    """Subset of the rows that covers the conditions evenly."""
+def spread_rows(values: list[np.ndarray], count: int, most: int) -> np.ndarray:
+    """Subset of up to ``most`` rows that covers the conditions evenly; all rows if they are fewer."""
+    if count <= most:
+        return np.arange(count)
     order = np.lexsort(values[::-1]) if values else np.arange(count)
-    edges = np.linspace(0, count, SUBSET + 1).astype(int)
+    edges = np.linspace(0, count, most + 1).astype(int)
     # One of each stretch at random: every n-th row could coincide with the levels of a condition.
     at = np.random.default_rng(SEED).integers(edges[:-1], edges[1:])
     return np.sort(order[at])
@@ -238,8 +236,9 @@ def _scores(
     values: list[np.ndarray],
     draws: Sequence[PriorDraws],
 ) -> dict[Explanation, float]:
-    """Evidence of every explanation with errors of form, and with published laws if near the best."""
-    scores = {m: form_error_evidence(problem, fits[NOTHING], f, space, values) for m, f in fits.items()}
+    """Evidence of every explanation with errors of its laws, and with published laws if near the best."""
+    base = BaseError.of(problem, fits[NOTHING], space, values).columns(problem, fits[NOTHING], space, values)
+    scores = {m: law_error_evidence(problem, fits[NOTHING], f, space, values, base) for m, f in fits.items()}
     odds = PriorOdds.of(s.id for s in draws)
     weights = {m: score + odds.log(m) for m, score in scores.items()}
     best = max(weights.values())
@@ -282,56 +281,3 @@ def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: 
     }
     shift = new[best.explanation].evidence - best.evidence
     return {m: new[m] if m in new else f.in_sigmas(scale, f.evidence + shift) for m, f in singles.items()}
-
-
-def n_inexact(problem: Problem, explanation: Explanation) -> int:
-    """Number of effects subject to an error of form; zero if any effect is descriptive."""
-    effects = problem.effects_of(explanation.effects)
-    return 0 if any(e.descriptive for e in effects) else sum(not e.exact_form for e in effects)
-
-
-def form_error_evidence(problem: Problem, stiff: Fit, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:
-    """Evidence with a smooth error of form in the change by the effects from a ``stiff`` reference fit."""
-    count = n_inexact(problem, fit.explanation)
-    if not count:
-        return fit.evidence
-    base = np.hstack([fit.slopes, problem.shared])
-    plain = linear_fit(fit.anchor, base, fit.weight).evidence
-    net = (fit.prediction - stiff.prediction) / problem.sd
-    bend = form_error_columns(net, rms(net), space, values)
-    gains = []
-    for size, weight in FORM_ERRORS:
-        if size == 0.0:
-            gains.append(np.log(weight))
-            continue
-        bent = linear_fit(fit.anchor, np.hstack([base, size * bend]), fit.weight).evidence
-        gains.append(np.log(weight) + bent - plain)
-    most = float(np.clip(FORM_ERROR_GAIN_SHARE * net @ (net * fit.weight), FORM_ERROR_GAIN_FLOOR, FORM_ERROR_GAIN_CAP))
-    return fit.evidence + min(float(np.logaddexp.reduce(gains)), most / count)
-
-
-def rms(net: np.ndarray) -> float:
-    """Root mean square."""
-    return float(np.sqrt(np.mean(net**2)))
-
-
-def form_error_columns(net: np.ndarray, typical: float, space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
-    """Change by an explanation, in standard deviations, times smooth functions of the numeric conditions.
-
-    Where the change is small, a third of its ``typical`` size replaces it: another form need not vanish there.
-    """
-    smooth = [
-        axis.functions(v, SIGNED_FORM_ERROR_LENGTH)[:, :SIGNED_FORM_ERROR_FUNCTIONS]
-        if axis.symmetric_log
-        else axis.functions(v, FORM_ERROR_LENGTH)[:, :FORM_ERROR_FUNCTIONS]
-        for axis, v in zip(space.axes, values, strict=True)
-        if not axis.named and axis.name != "sequence"
-    ]
-    if not smooth:
-        return np.zeros((net.size, 0))
-    pairs = [
-        (a[:, :FORM_ERROR_PRODUCTS, None] * b[:, None, :FORM_ERROR_PRODUCTS]).reshape(a.shape[0], -1)
-        for a, b in combinations(smooth, 2)
-    ]
-    functions = np.hstack(smooth + pairs) / np.sqrt(len(smooth) + len(pairs))
-    return np.hypot(net, FORM_ERROR_LEAST * typical)[:, None] * functions

@@ -39,20 +39,19 @@ recommends five or ten. Folds where no condition has enough levels: every fifth 
 WIDE_SPAN = 0.2
 """Judgement. Span of a condition over its size, from which leaving out its levels tests a prediction: levels that lie
 close together predict one another whatever the law. It only ranks conditions that were varied."""
-TOLERATED_SHARE = 0.3
-"""Judgement. Share of the mismatch on left-out levels that the right law may leave in another published form."""
 MOST_PENALTY = 20.0
 """Judgement. Largest penalty in log odds: 2e-9 leaves no doubt."""
-LEAST_MISMATCH = 0.3
-"""Judgement. Least mismatch (squared standard deviations) in the judgement of shares: less is noise."""
 CHANCE_GAIN = 5.0
-"""Judgement. Chance gain of effects over the discrepancy in log probability on left-out levels: odds of 150."""
-VALIDATED = 6
+"""Judgement. Gain in log probability on left-out levels that chance gives: odds of 150."""
+VALIDATED = 8
 """Cost limit. Cross-validated explanations; each costs as many fits as there are levels."""
 
 # Probabilities and averages
 TIE = 0.1
 """Judgement. Ratio to the verdict's probability from which an explanation ties with it: ten to one."""
+OUTSIDE = 0.02
+"""Judgement. Probability that no explanation considered holds: about the share of claims above 0.9 that were wrong on
+rigs simulated by another author's laws, whatever their evidence."""
 FLOOR = 1e-6
 """Judgement. Least stated probability, and least difference from one: models are not surer."""
 TEST_MARGIN = 1.25
@@ -169,8 +168,6 @@ LEAST_STREAK, RARE = 3, 0.05
 """Judgement. Least length of a reported streak of outliers, and largest number of such streaks by chance: 5 % level."""
 MOST_OF_LEVEL = 0.75
 """Judgement. Share of the readings of a level from which a streak counts as that level: most of them."""
-OVERDISPERSION_REPORTED = 1.5
-"""Judgement. Inflation of the variance from which it is reported: errors of 1.2 times the expected ones."""
 POOR_PREDICTION = 3.0
 """Judgement. Error on left-out levels, in sd of a reading, from which the prediction fails: beyond noise."""
 LARGE_NOISE = 0.1

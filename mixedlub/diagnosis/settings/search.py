@@ -1,4 +1,4 @@
-"""Settings: priors of the explanations, errors of form, and the noise."""
+"""Settings: priors of the explanations, and the noise."""
 
 import numpy as np
 
@@ -34,24 +34,6 @@ REFITTED_ON_ALL = 8
 """Cost limit. Most probable explanations of a subset that are fitted again to all readings."""
 PUBLISHED_WITHIN = 20.0
 """Cost limit. Log odds behind the best within which published laws of an explanation are weighed."""
-
-# Errors of form
-FORM_ERRORS = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
-"""Judgement. Relative rms error of an effect's form, and its prior probability: about the spread of published forms."""
-FORM_ERROR_LENGTH, SIGNED_FORM_ERROR_LENGTH = 0.7, 0.35
-"""Judgement. Correlation lengths of an error of form along a condition of one sign, and of both signs: half as long."""
-FORM_ERROR_FUNCTIONS, SIGNED_FORM_ERROR_FUNCTIONS = 4, 8
-"""Cost limit. Functions of an error of form along a condition of one sign, and of both signs."""
-FORM_ERROR_PRODUCTS = 3
-"""Cost limit. Functions of each condition in products of two conditions."""
-FORM_ERROR_LEAST = 0.3
-"""Judgement. Share of the typical change that replaces a small one: another form need not vanish there."""
-FORM_ERROR_GAIN_SHARE = 0.01
-"""Judgement. Most that an error of form may add to the log evidence, over the squares of an effect: 14 % error."""
-FORM_ERROR_GAIN_FLOOR = 4.0
-"""Judgement. Least bound on this gain: a small effect may be wrong in form as well."""
-FORM_ERROR_GAIN_CAP = 30.0
-"""Judgement. Largest bound on this gain: beyond it another effect is missing, not another form of this effect."""
 
 # Size of the noise
 INFLATION_FACTORS = np.array([1.1, 1.25, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 4.0, 6.0, 10.0])
