@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -46,7 +47,7 @@ def law_error_evidence(
     fixed = np.hstack([fit.slopes, problem.shared])
     plain = linear_fit(fit.anchor, fixed, fit.weight).evidence
     form = np.zeros((fit.anchor.size, 0))
-    sizes = FORM_ERRORS[:1]
+    sizes: Sequence[tuple[float, float]] = ((0.0, 1.0),)
     if n_inexact(problem, fit.explanation):
         net = (fit.prediction - stiff.prediction) / problem.sd
         form, sizes = form_error_columns(net, rms(net), space, values), FORM_ERRORS
@@ -59,7 +60,7 @@ def law_error_evidence(
         each = _quick_evidence(fit.anchor, columns, base, squares, weight)
         if each.max() > best:
             best, best_columns = float(each.max()), np.hstack([columns, np.sqrt(squares[each.argmax()]) * base])
-        logs.append(each + log_prior + np.log(share) - np.log(sum(s for _, s in sizes)))
+        logs.append(each + log_prior + np.log(share))
     exact = linear_fit(fit.anchor, best_columns, weight).evidence
     return fit.evidence - plain + exact - best + float(np.logaddexp.reduce(np.concatenate(logs)))
 
