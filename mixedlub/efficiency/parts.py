@@ -65,7 +65,7 @@ class StagePart:
         if BATH not in declared(self.law.law):
             return []
         own = speed if self.side == 0 else speed / pair.gear_ratio
-        size = (pair.operating_radius[self.side], pair.face_width, pair.normal_module)
+        size = (abs(pair.operating_radius[self.side]), pair.face_width, pair.normal_module)
         bath = bath_acceleration(own, *map(np.asarray, size))
         advice = (
             f"churning of {self.name} by {self.law.title} goes over to the law of high speed, which viscosity does not "
@@ -97,7 +97,7 @@ def parts_of(stage: Stage, pair: GearPair, loads: Mapping[str, Load], where: str
             place = f"{where}.{table}.{name}"
             part = _part(table, name, section, place)
             if isinstance(section, Churning):
-                _check_immersion(section, pair.operating_radius[part.side], place)
+                _check_immersion(section, abs(pair.operating_radius[part.side]), place)
             yield replace(part, load=loads.get(name, NO_LOAD)) if isinstance(section, Bearing) else part
 
 
@@ -172,13 +172,13 @@ def _wheel(pair: GearPair, side: int) -> dict[str, Any]:
     """Sizes of a wheel by quantity of the part laws."""
     root = pair.reference_radius[side] + pair.normal_module * (pair.profile_shift[side] - pair.dedendum)
     return {
-        "wheel_radius": pair.operating_radius[side],
+        "wheel_radius": abs(pair.operating_radius[side]),
         "face_width": pair.face_width,
         "gear_module": pair.normal_module,
-        "wheel_teeth": float(pair.teeth[side]),
+        "wheel_teeth": float(abs(pair.teeth[side])),
         "helix_angle": abs(pair.helix_angle),
-        "root_diameter": 2.0 * root,
-        "tip_diameter": 2.0 * pair.tip_radii[side],
+        "root_diameter": 2.0 * abs(root),
+        "tip_diameter": 2.0 * abs(pair.tip_radii[side]),
     }
 
 

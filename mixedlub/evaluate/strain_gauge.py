@@ -218,7 +218,7 @@ def _table(
     way = np.radians(forces.roll_angle) * pair.base_radius[0 if wheel == "pinion" else 1]
     pinion = way if wheel == "pinion" else pair.line_of_action_length - way
     omega = one.speed_rpm * math.pi / 30.0
-    other = (pair.line_of_action_length - pinion) / pair.gear_ratio
+    other = (pair.line_of_action_length - pinion) / pair.teeth_ratio
     value, sd = friction_of(forces)
     found: dict[str, Any] = {
         "recording": np.full(pinion.size, name),
