@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import Any
 
 from profiles.errors import InputError
 
-if TYPE_CHECKING:
-    from mixedlub.gear.geometry import GearPair
+Internal = Any
+"""Gear pair of which the second wheel is a ring; its class, in `mixedlub.gear.geometry`, calls these functions."""
 
 CORNER = 0.38
 """Source: ISO 53, rack A. Radius of the tip of the rack that cuts the inner wheel, in modules."""
 
 
-def tip_clearance(pair: GearPair) -> float:
+def tip_clearance(pair: Internal) -> float:
     r"""Clearance (m) along the ring's tip circle where the tips of both wheels pass each other; inf if they never do.
 
     .. math:: c = r_{a2}\left[\frac{z_1}{z_2}(\theta_1 + \mathrm{inv}\,\alpha_{a1} - \mathrm{inv}\,\alpha_w)
@@ -38,7 +38,7 @@ def tip_clearance(pair: GearPair) -> float:
     return outer * (turned - math.acos(second))
 
 
-def involute_start(pair: GearPair) -> float:
+def involute_start(pair: Internal) -> float:
     """Position (m) on the path from which the inner wheel has an involute, as a rack with rounded tips cuts it.
 
     The straight flank of the rack reaches h_fP - x - rho (1 - sin alpha_n) below the reference circle: the involute
@@ -50,12 +50,12 @@ def involute_start(pair: GearPair) -> float:
     return max(pair.reference_radius[0] * math.sin(alpha) - straight * pair.normal_module / math.sin(alpha), 0.0)
 
 
-def longest_ring_tip(pair: GearPair) -> float:
+def longest_ring_tip(pair: Internal) -> float:
     """Smallest tip radius (m, positive) of a ring that meets the involute of the inner wheel."""
     return math.hypot(pair.base_radius[1], involute_start(pair) - pair.line_of_action_length)
 
 
-def refuse_interference(pair: GearPair, tips: tuple[float, ...], standard: str) -> None:
+def refuse_interference(pair: Internal, tips: tuple[float, ...], standard: str) -> None:
     """Raise an error for a ring whose tips foul the tips or the root of the wheel inside it.
 
     ``tips``, ``standard``: tip diameters (mm) and a remark on them for the message.
