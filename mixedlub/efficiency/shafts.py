@@ -10,7 +10,8 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from mixedlub.efficiency.file import Bearing, Side, Stage
+from mixedlub.efficiency.file import Stage
+from mixedlub.efficiency.part_tables import Bearing, Side
 from mixedlub.gear import GearPair
 from mixedlub.schema.findings import Finding, finding
 from profiles.errors import InputError
