@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -24,7 +24,7 @@ SETTLED = 1e-4
 its tenth."""
 LOCKS = Limit(
     "self_locking",
-    "mesh_force_over_frictionless",
+    "power_of_output_over_input",
     (0.0, np.inf),
     "friction in its meshes takes all power of the input: the train does not turn",
     little=(0.0, np.inf),
@@ -109,7 +109,8 @@ class PlanetaryModel:
         """Equilibrium in which every mesh has the efficiency of its own load and relative speed."""
         shape = (len(self.meshes), torque.size)
         frictionless = self.train.flow(torque, np.ones(shape))
-        flow, lost, pin = frictionless, np.zeros(shape), self._pins(frictionless, speed)
+        flow, lost, pin, gain = frictionless, np.zeros(shape), self._pins(frictionless, speed), np.ones(torque.size)
+        size = np.abs(frictionless.force)
         for _ in range(ROUNDS):
             losses = [self._mesh(index, flow, speed) for index in range(shape[0])]
             sliding, rolling = (np.array([one[part] for one in losses]) for part in (0, 1))
@@ -118,12 +119,12 @@ class PlanetaryModel:
             pin = self._pins(flow, speed)
             drag = self._drags(rolling, pin, speed)
             before, flow = flow, self.train.flow(torque, 1.0 - np.minimum(lost, 1.0), frictionless, drag=drag)
-            size = np.abs(frictionless.force)
+            given = -flow.torque[self.driven] * self.train.speeds[self.driven]
+            gain = np.divide(given, torque, out=np.ones_like(given), where=torque > 0.0)
+            flow = replace(flow, force=np.where(flow.holds, flow.force, frictionless.force))
             scale = np.maximum(np.maximum(size, 0.01 * size.max(axis=1, keepdims=True)), 1e-300)
-            if np.all((np.abs(flow.force - before.force) <= SETTLED * scale) | ~flow.holds):
+            if np.all(np.abs(flow.force - before.force) <= SETTLED * scale):
                 break
-        used = np.where(flow.holds, flow.force, frictionless.force)
-        flow = Flow(used, flow.first_drives, flow.torque, flow.holds)
         rolled = self.train.rolling_power(flow) * speed
         sliding = lost * rolled
         found = self._found(sliding, rolling, pin, speed)
@@ -134,9 +135,6 @@ class PlanetaryModel:
             found = self._found(sliding, rolling, pin, speed)
         for (_, origin, part), value in found.items():
             check_finite(f"planetary.{self.name}.{origin}.{part}", value, torque, speed)
-        gain = np.min(flow.force * np.sign(frictionless.force), axis=0) / np.abs(frictionless.force).max(
-            axis=0, initial=1e-300
-        )
         reached: dict[str, Reached] = {
             f"planetary.{self.name}.meshes.{one.name}": losses[index][2]
             for index, one in enumerate(self.train.couplings)

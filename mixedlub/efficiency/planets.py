@@ -133,12 +133,13 @@ class PlanetSet:
             fitting = [str(n) for n in range(1, MOST_PLANETS + 1) if self.can_be_assembled(n)]
             rule = f"so many equally spaced planets cannot be assembled{self._sum()}; {', '.join(fitting)} can"
             raise InputError(rule, where="planet_count", value=self.count)
+        places = self.places
         if self.count == 1:
             return
         step = cmath.exp(2j * math.pi / self.count)
         for first, second, tips in self._neighbours():
             ways = (step, step.conjugate()) if first != second else (step,)
-            gap = min(abs(self.places[first] - self.places[second] * turn) for turn in ways) - tips
+            gap = min(abs(places[first] - places[second] * turn) for turn in ways) - tips
             if gap < least:
                 says = f"overlap by {-1e3 * gap:.4g} mm" if gap < 0 else f"have only {1e3 * gap:.4g} mm between them"
                 rule = f"the tips of neighbouring planets ({' and '.join(dict.fromkeys((first, second)))}) {says}"

@@ -162,8 +162,9 @@ class PlanetaryTrain:
         external = {one: -np.sum(self._on(one, on_wheels) * force, axis=0) for one in self.members}
         holds = np.ones(torque.size, dtype=bool)
         if before is not None:
-            # Power that turns round under friction would need a drive from outside.
-            holds = np.all((gives >= 0.0) == before.first_drives, axis=0) | (torque <= 0.0)
+            # Power that turns round under friction, in a mesh or at the output, would need a drive from outside.
+            driven = external[self.output] * self.speeds[self.output] < 0.0
+            holds = (np.all((gives >= 0.0) == before.first_drives, axis=0) & driven) | (torque <= 0.0)
             holds = self.flow(torque, efficiency, before).holds if drag else holds
         return Flow(force, gives >= 0.0, external, holds)
 
