@@ -31,8 +31,8 @@ def command(
 
     One stage or several in series, of one gear pair or planetary, each with its oil, bearings, seals and wheels in oil
     and air: map.csv and loss_map.csv over torque and speed, losses.csv by part, breakdown.csv, stages.csv,
-    mesh_cycle.csv and tooth_pair.csv at one condition, members.csv, rolling.csv and planets.csv of planetary stages,
-    duty.csv of a duty cycle, and figures.
+    mesh_cycle.csv and tooth_pair.csv at one condition, members.csv, rolling.csv, planets.csv and pairings.csv of
+    planetary stages, duty.csv of a duty cycle, and figures.
     """
     import numpy as np
 

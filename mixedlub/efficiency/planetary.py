@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import product
 
 import numpy as np
 
@@ -50,7 +51,10 @@ class PlanetaryState:
 
 @dataclass(frozen=True, eq=False)
 class PlanetaryModel:
-    """Planetary train with oil and parts, in SI; ``meshes`` in the order of the couplings of the train."""
+    """Planetary train with oil and parts, in SI; ``meshes`` in the order of the couplings of the train.
+
+    ``finished``: meshes by name and by the finishes of their wheels ("" for the surface of the mesh).
+    """
 
     name: str
     section: PlanetaryStage
@@ -60,6 +64,7 @@ class PlanetaryModel:
     oil: Mapping[str, float]
     parts: tuple[StagePart, ...]
     planet_parts: Mapping[str, tuple[StagePart, ...]]
+    finished: Mapping[str, Mapping[tuple[str, str], StageModel]] = field(default_factory=dict)
 
     @property
     def driving(self) -> str:
@@ -85,6 +90,15 @@ class PlanetaryModel:
     def loads(self) -> tuple[np.ndarray, np.ndarray]:
         """Different loads of the planets over the mean, and how many planets have each."""
         return np.unique(self.section.planet_loads or (1.0,) * self.section.planet_count, return_counts=True)
+
+    def combinations(self) -> Iterator[tuple[dict[str, str], PlanetaryModel]]:
+        """Finishes of wheels in all combinations, each with the stage that has them."""
+        tried = self.section.pairings
+        for names in product(*tried.values()) if tried else ():
+            finish = dict(zip(tried, names, strict=True))
+            own = [tuple(finish.get(wheel, "") for wheel in one.wheels) for one in self.train.couplings]
+            meshes = (self.finished[one.name][a, b] for one, (a, b) in zip(self.train.couplings, own, strict=True))
+            yield finish, replace(self, meshes=tuple(meshes))
 
     def mesh_of(self, part: str) -> StageModel:
         """Mesh by its name in the file."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import prod
 from typing import Annotated
 
 from pydantic import Field, model_validator
@@ -9,11 +10,14 @@ from pydantic import Field, model_validator
 from mixedlub.efficiency.part_tables import Flanks, NotNegative, Part, Positive, RollingBearing, law_key
 from mixedlub.efficiency.train import CARRIER
 from mixedlub.schema.section import Number, NumberOrName, Section, Whole, key
+from mixedlub.schema.surface_file import SurfaceSection
 from mixedlub.schema.system_file import Gears, Lubricant
 from mixedlub.study.schema import Options
 from profiles.errors import nearest
 
 MEMBER = "sun, ring or whatever the meshes name, or carrier"
+MOST_COMBINATIONS = 1000
+"""Cost limit. Largest number of combinations of finishes: some 20 ms each."""
 EVEN = 1e-3
 """Judgement. Tolerance on the mean of the planets' loads, for thirds written with three digits."""
 
@@ -84,6 +88,12 @@ class PlanetaryStage(Section):
     lubricant: Lubricant | None = key("what is left out is typical of the base stock, and a note says so", None)
     meshes: dict[str, PlanetMesh] = key("one table a mesh", min_length=1)
     planets: dict[str, Planet] = key("one table a body that the carrier takes along", min_length=1)
+    finishes: dict[str, SurfaceSection] = key("one table a surface that pairings names", {})
+    pairings: dict[str, tuple[str, ...]] = key(
+        "WHEEL = [FINISH, ...]: finishes to try in all combinations; other wheels keep the surfaces of their meshes",
+        {},
+        example={"sun": ["ground", "polished"], "planet": ["ground"]},
+    )
     bearings: dict[str, MemberBearing] = key("one table a bearing of a sun, ring or the carrier", {})
     seals: dict[str, MemberSeal] = key("one table a seal", {})
     others: dict[str, Drag] = key("drag of the carrier in oil and air, pumps and others with a torque of your own", {})
@@ -117,6 +127,21 @@ class PlanetaryStage(Section):
                     raise ValueError(f"{table}.{name}: shaft = {part.shaft!r}; {nearest(part.shaft, self.members)}")
                 if part.shaft == self.fixed:
                     raise ValueError(f"{table}.{name}: shaft = {part.shaft!r} stands still and loses nothing")
+        return self
+
+    @model_validator(mode="after")
+    def _paired(self) -> PlanetaryStage:
+        wheels = {wheel for mesh in self.meshes.values() for wheel in mesh.wheels}
+        for wheel, names in self.pairings.items():
+            if wheel not in wheels:
+                raise ValueError(f"pairings.{wheel}: no such wheel; {nearest(wheel, wheels)}")
+            for name in names:
+                if name not in self.finishes:
+                    raise ValueError(
+                        f"pairings.{wheel} = {name!r} has no table finishes.NAME; {nearest(name, self.finishes)}"
+                    )
+        if (count := prod(len(names) for names in self.pairings.values())) > MOST_COMBINATIONS:
+            raise ValueError(f"pairings have at most {MOST_COMBINATIONS} combinations, not {count}")
         return self
 
     @model_validator(mode="after")

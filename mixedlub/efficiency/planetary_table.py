@@ -43,12 +43,20 @@ TABLES = {
         centrifugal_force_N="centrifugal force of one planet",
         largest_pin_load_N="load of the pin by meshes and centrifugal force, on the planet of the largest load",
     ),
+    "pairings": described(
+        **STAGE,
+        finishes="text: finish of each wheel that is tried",
+        mesh_loss_W="loss of all meshes by sliding and rolling",
+        stage_loss_W="all losses of the stage",
+        stage_efficiency_percent="1 less all losses of the stage over power that comes in",
+        MESH_loss_W="loss of a mesh",
+    ),
 }
 """Columns of the tables of planetary stages."""
 
 
 def planetary_tables(at: Losses) -> dict[str, pd.DataFrame]:
-    """Tables at one condition of the input of the gearbox; none without planetary stages."""
+    """Tables at one condition of the input of the gearbox; none without planetary stages, or without pairings."""
     power, speed = float(at.input_power[0]), float(at.speed[0])
     rows: dict[str, list[dict[str, object]]] = {name: [] for name in TABLES}
     for stage in at.gearbox.stages:
@@ -58,6 +66,7 @@ def planetary_tables(at: Losses) -> dict[str, pd.DataFrame]:
             rows["members"] += _members(stage, state, speed)
             rows["rolling"] += _rolling(stage, state, torque, speed)
             rows["planets"] += _planets(stage, state, speed)
+            rows["pairings"] += _pairings(stage, torque, speed)
         power -= float(at.total(stage=stage.name)[0])
         speed /= stage.ratio
     return {name: pd.DataFrame(found) for name, found in rows.items() if found}
@@ -97,6 +106,28 @@ def _rolling(stage: PlanetaryModel, state: PlanetaryState, torque: float, speed:
             "mesh_loss_W": lost,
             "mesh_efficiency_percent": 100.0 * (1.0 - lost / rolled) if rolled > lost else np.nan,
         }
+
+
+def _pairings(stage: PlanetaryModel, torque: float, speed: float) -> list[dict[str, object]]:
+    """Losses with each combination of finishes, the smallest first."""
+    rows: list[dict[str, object]] = []
+    for finish, other in stage.combinations():
+        state = other.state(np.array([torque]), np.array([speed]))
+        each = (state.sliding + state.rolling)[:, 0]
+        lost = float(sum(value[0] for value in state.found.values()))
+        rows.append(
+            {
+                "stage": stage.name,
+                "finishes": ", ".join(f"{wheel} {name}" for wheel, name in finish.items()),
+                "mesh_loss_W": float(each.sum()),
+                "stage_loss_W": lost,
+                "stage_efficiency_percent": 100.0 * (1.0 - lost / (torque * speed))
+                if torque * speed > lost
+                else np.nan,
+                **{f"{one.name}_loss_W": float(v) for one, v in zip(stage.train.couplings, each, strict=True)},
+            }
+        )
+    return sorted(rows, key=lambda row: float(str(row["stage_loss_W"])))
 
 
 def _planets(stage: PlanetaryModel, state: PlanetaryState, speed: float) -> Iterator[dict[str, object]]:

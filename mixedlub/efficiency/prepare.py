@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import groupby
+from dataclasses import replace
+from itertools import groupby, product
 from pathlib import Path
 
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.slots import SLIDING_POWER
 from mixedlub.efficiency.file import EfficiencyFile, Stage
 from mixedlub.efficiency.gearbox import Gearbox
-from mixedlub.efficiency.part_tables import Flanks
 from mixedlub.efficiency.parts import bearing_findings, check_name, oil_state, part_of, parts_of, rating_findings
 from mixedlub.efficiency.planetary import PlanetaryModel
 from mixedlub.efficiency.planetary_file import PlanetaryStage, PlanetMesh
@@ -20,6 +20,7 @@ from mixedlub.efficiency.stage import StageModel
 from mixedlub.efficiency.train import Coupling, PlanetaryTrain
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.schema.findings import Finding, finding
+from mixedlub.schema.surface_file import SurfaceSection
 from mixedlub.schema.toml_file import parse, read_toml
 from mixedlub.study import Study, read_study
 from mixedlub.study.origins import losing
@@ -60,7 +61,8 @@ def _stages(
     for name, section in sections.items():
         where = f"stages.{name}"
         check_name(name, f"{path}: {where}")
-        studies[name] = _study(path, where, section, section.surfaces, section.oil_temperature_C)
+        surfaces = section.surfaces.pinion, section.surfaces.gear
+        studies[name] = _study(path, where, section, surfaces, section.oil_temperature_C)
     loads, found = bearing_loads(sections, {name: one.pair for name, one in studies.items()})
     notes += found
     stages: dict[str, StageModel | PlanetaryModel] = {}
@@ -80,15 +82,23 @@ def _planetary(path: Path, name: str, section: PlanetaryStage, notes: list[Findi
     where = f"planetary.{name}"
     check_name(name, f"{path}: {where}")
     meshes: list[StageModel] = []
+    finished: dict[str, dict[tuple[str, str], StageModel]] = {}
     for mesh, own in section.meshes.items():
         place = f"{where}.meshes.{mesh}"
         check_name(mesh, f"{path}: {place}")
-        study = _study(path, place, own, own.surfaces, section.oil_temperature_C, section)
+        surfaces = own.surfaces.pinion, own.surfaces.gear
+        study = _study(path, place, own, surfaces, section.oil_temperature_C, section)
         if study.pair.ring and own.wheels[1] in section.planets:
             raise InputError("a ring is no planet", where=f"{path}: {place}.wheels", value=own.wheels[1])
         oil = oil_state(study.oil, section.oil_temperature_C + ZERO_CELSIUS)
         meshes.append(StageModel(f"{name}.{mesh}", "pinion", study, oil, ()))
         notes += study.notes
+        tried = [section.pairings.get(wheel, ("",)) for wheel in own.wheels] if section.pairings else []
+        finished[mesh] = {}
+        for names in product(*tried) if tried else ():
+            chosen = [section.finishes.get(finish, known) for finish, known in zip(names, surfaces, strict=True)]
+            other = _study(path, place, own, (chosen[0], chosen[1]), section.oil_temperature_C, section)
+            finished[mesh][names[0], names[1]] = replace(meshes[-1], study=other)
     couplings = tuple(
         Coupling(mesh, own.wheels, one.pair.teeth)
         for (mesh, own), one in zip(section.meshes.items(), meshes, strict=True)
@@ -113,7 +123,7 @@ def _planetary(path: Path, name: str, section: PlanetaryStage, notes: list[Findi
         )
         for planet, own in section.planets.items()
     }
-    model = PlanetaryModel(name, section, train, planets, tuple(meshes), meshes[0].oil, tuple(parts), carried)
+    model = PlanetaryModel(name, section, train, planets, tuple(meshes), meshes[0].oil, tuple(parts), carried, finished)
     notes += _planetary_findings(model, where)
     return model
 
@@ -142,7 +152,7 @@ def _study(
     path: Path,
     where: str,
     mesh: Stage | PlanetMesh,
-    surfaces: Flanks,
+    surfaces: tuple[SurfaceSection, SurfaceSection],
     oil_temperature: float,
     outer: PlanetaryStage | None = None,
 ) -> Study:
@@ -159,7 +169,7 @@ def _study(
     given = {
         "schema": "mixedlub-study/1",
         **{name: getattr(one, name) for one in sections for name in SHARED if name in one.model_fields_set},
-        "surfaces": {"pinion": surfaces.pinion, "gear": surfaces.gear},
+        "surfaces": dict(zip(("pinion", "gear"), surfaces, strict=True)),
         "pairings": Pairings(pinion=("pinion",), gear=("gear",)),
         "conditions": condition,
     }

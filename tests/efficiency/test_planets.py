@@ -239,6 +239,22 @@ class TestGearbox:
             origin = "a", "sliding", one.stage.name.partition(".")[2]
             assert 3 * one.sliding.mean() == pytest.approx(at.by_origin[origin][0], rel=0.01)
 
+    def test_finishes_of_sun_planet_and_ring_are_tried_together(self, folder: Path) -> None:
+        """Four combinations: a finish of the planet acts in both of its meshes, a finish of the ring in one."""
+        rough = {"m0_um2": 0.04, "m2": 0.0015, "m4_per_um2": 0.0012}
+        tried = {"pairings": {"planet": ["fine", "rough"], "ring": ["fine", "rough"]}}
+        stage = {**SIMPLE, **tried, "finishes": {"fine": SMOOTH, "rough": rough}}
+        box = planetary_box(folder, stage)
+        table = planetary_tables(box.at_cycle())["pairings"].set_index("finishes")
+        assert len(table) == 4
+        assert table["stage_loss_W"].is_monotonic_increasing
+        plain = box.stages[0].losses(np.array([200.0]), np.array([100.0 * np.pi]))[0]
+        lost = sum(value[0] for value in plain.values())
+        assert table["stage_loss_W"]["planet fine, ring fine"] == pytest.approx(lost, rel=1e-9)
+        inner = table["inner_loss_W"]
+        assert inner["planet rough, ring fine"] > inner["planet fine, ring fine"]
+        assert inner["planet fine, ring rough"] == pytest.approx(inner["planet fine, ring fine"], rel=1e-3)
+
     def test_stages_of_both_kinds_need_their_order(self, folder: Path) -> None:
         file = {
             "schema": "mixedlub-efficiency/1",
@@ -270,6 +286,8 @@ class TestGearbox:
         [
             ({"fixed": "rink"}, "no member; nearest"),
             ({"fixed": "sun"}, "three members"),
+            ({"pairings": {"sun": ["fine"]}}, "has no table finishes.NAME"),
+            ({"pairings": {"son": []}}, "no such wheel; nearest"),
             ({"planet_count": 7}, r"\(27 \+ 93\)/7 = 17.1429 is not whole"),
             ({"planet_count": 6}, "overlap by"),
             ({"planet_loads": [1.0, 1.0]}, "planet_loads needs 3 entries, not 2"),
