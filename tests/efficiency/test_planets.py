@@ -146,22 +146,26 @@ class TestStage:
         drag = sum(v for (_, origin, _), v in state.found.items() if origin == "others")
         assert left - drag == pytest.approx(torque * speed - sum(state.found.values()), rel=1e-9)
 
-    def test_each_mesh_loses_what_a_study_of_the_pair_loses_at_the_relative_speed(self, folder: Path) -> None:
-        """Sun against planet at 2325 rpm where the sun turns with 3000 rpm, and a third of its torque."""
+    @pytest.mark.parametrize(("index", "speed_rpm"), [(0, 3000.0 * 93 / 120), (1, 3000.0 * 93 / 120 * 27 / 33)])
+    def test_each_mesh_loses_what_a_study_of_the_pair_loses_at_the_relative_speed(
+        self, folder: Path, index: int, speed_rpm: float
+    ) -> None:
+        """Sun against planet at 2325 rpm where the sun turns with 3000 rpm, and planet against ring at its speed."""
         stage = _stage(folder)
         state = stage.state(np.array([150.0]), np.array([100.0 * np.pi]))
+        pinion = float(abs(state.flow.force[index, 0] * stage.train.teeth[index, 0])) / 3
         study = {
             "schema": "mixedlub-study/1",
-            "gears": SIMPLE["meshes"]["inner"]["gears"],
+            "gears": [one["gears"] for one in SIMPLE["meshes"].values()][index],
             "lubricant": SIMPLE["lubricant"],
             "surfaces": {"a": SMOOTH},
             "pairings": {"pinion": ["a"], "gear": ["a"]},
-            "conditions": {"torque_Nm": [50.0], "speed_rpm": [2325.0], "oil_temperature_C": [70.0]},
+            "conditions": {"torque_Nm": [pinion], "speed_rpm": [speed_rpm], "oil_temperature_C": [70.0]},
         }
         path = folder / "study.toml"
         path.write_text(to_toml(study), encoding="utf-8")
         found = run_study(read_study(path))["mesh_loss"].ravel()[0]
-        assert state.sliding[0, 0] == pytest.approx(3 * found, rel=1e-6)
+        assert state.sliding[index, 0] == pytest.approx(3 * found, rel=1e-4)
 
     def test_uneven_planets_lose_the_sum_of_theirs(self, folder: Path) -> None:
         even, uneven = _stage(folder), _stage(folder, planet_loads=[1.5, 0.75, 0.75])
