@@ -20,7 +20,7 @@ from profiles.errors import InputError, as_path
 
 
 def gear_pair(**keys: Any) -> Gears:
-    """A pair of external gears.
+    """A pair of gears; with a negative number of teeth the second is a ring gear.
 
     Parameters
     ----------

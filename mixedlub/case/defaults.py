@@ -34,8 +34,8 @@ def gears_taken(section: system_file.Gears) -> dict[str, str]:
     """
     pair = gear_pair(section)
     made = {
-        "tip_diameter_mm": f"{_shown([2e3 * r for r in pair.tip_radii])}, standard addendum",
-        "centre_distance_mm": f"{_shown(1e3 * pair.working_centre_distance)}, from the profile shift",
+        "tip_diameter_mm": f"{_shown([2e3 * abs(r) for r in pair.tip_radii])}, standard addendum",
+        "centre_distance_mm": f"{_shown(1e3 * abs(pair.working_centre_distance))}, from the profile shift",
         "load_sharing": SHARING,
     }
     left = [key for key in _open(section) if key in made or getattr(section, key) is not None]

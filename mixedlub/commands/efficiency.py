@@ -29,15 +29,17 @@ def command(
 ) -> None:
     """Efficiency of gear stages and their losses by origin.
 
-    One stage or several in series, each with its oil, bearings, seals and wheels in oil and air: map.csv and
-    loss_map.csv over torque and speed, losses.csv by part, breakdown.csv, stages.csv, mesh_cycle.csv and tooth_pair.csv
-    at one condition, duty.csv of a duty cycle, and figures.
+    One stage or several in series, of one gear pair or planetary, each with its oil, bearings, seals and wheels in oil
+    and air: map.csv and loss_map.csv over torque and speed, losses.csv by part, breakdown.csv, stages.csv,
+    mesh_cycle.csv and tooth_pair.csv at one condition, members.csv, rolling.csv, planets.csv and pairings.csv of
+    planetary stages, duty.csv of a duty cycle, and figures.
     """
     import numpy as np
 
     from mixedlub.efficiency import read_gearbox
     from mixedlub.efficiency import table as tables
     from mixedlub.efficiency.mesh_cycle import mesh_cycles
+    from mixedlub.efficiency.planetary_table import planetary_tables
     from mixedlub.report.efficiency import efficiency_figures
 
     with input_errors_from(str(file)):
@@ -55,6 +57,7 @@ def command(
         "stages": tables.stage_table(at),
         "mesh_cycle": tables.cycle_table(cycles),
         "tooth_pair": tables.tooth_table(cycles),
+        **planetary_tables(at),
     }
     duty = gearbox.file.duty
     if duty is not None:
@@ -68,7 +71,7 @@ def command(
 
 def _notes(gearbox: Gearbox) -> Iterator[str]:
     """Laws of parts with constants not confirmed by a source."""
-    laws = {part.law.title: part.law for stage in gearbox.stages for part in stage.parts}
+    laws = {part.law.title: part.law for stage in gearbox.stages for part in stage.all_parts}
     doubtful = [title for title, law in laws.items() if not law.sources and law.kind != "other"]
     if doubtful:
         yield f"constants not confirmed by their source: {', '.join(doubtful)}; `mixedlub parts` says what is known"

@@ -183,10 +183,11 @@ def bevel_files() -> dict[str, str]:
 
 
 def efficiency_files() -> dict[str, str]:
-    """A file of a gearbox of two stages."""
-    from mixedlub.efficiency import EXAMPLE
+    """A file of a gearbox of two stages, and one of two planetary stages."""
+    from mixedlub.efficiency import EXAMPLE, PLANETARY_EXAMPLE
 
-    return {"efficiency.toml": EXAMPLE.read_text(encoding="utf-8")}
+    examples = {"efficiency.toml": EXAMPLE, "planetary.toml": PLANETARY_EXAMPLE}
+    return {name: example.read_text(encoding="utf-8") for name, example in examples.items()}
 
 
 def friction_law_files() -> dict[str, str]:

@@ -1,4 +1,4 @@
-"""Efficiency of gear stages in series: losses by origin, maps, mesh cycle and duty cycle."""
+"""Efficiency of gear stages and planetary stages in series: losses by origin, maps, mesh cycle and duty cycle."""
 
 from importlib.resources import files
 
@@ -8,4 +8,7 @@ from mixedlub.efficiency.prepare import read_gearbox
 EXAMPLE = files("mixedlub.efficiency").joinpath("example.toml")
 """Template of a gearbox with two stages, written by `mixedlub new efficiency`."""
 
-__all__ = ["EXAMPLE", "Gearbox", "Losses", "read_gearbox"]
+PLANETARY_EXAMPLE = files("mixedlub.efficiency").joinpath("planetary_example.toml")
+"""Template of a gearbox with two planetary stages, written beside it."""
+
+__all__ = ["EXAMPLE", "PLANETARY_EXAMPLE", "Gearbox", "Losses", "read_gearbox"]

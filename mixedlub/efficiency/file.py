@@ -2,114 +2,31 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Literal
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
-from mixedlub.chain.part_law import GIVES, Kind
-from mixedlub.parts import of_kind
+from mixedlub.efficiency.part_tables import (
+    SIDES,
+    Bearing,
+    Churning,
+    Flanks,
+    Jet,
+    NotNegative,
+    Other,
+    Pocketing,
+    Positive,
+    Seal,
+    Side,
+    Windage,
+)
+from mixedlub.efficiency.planetary_file import PlanetaryStage
 from mixedlub.schema.section import Number, NumberOrName, Section, Whole, key
-from mixedlub.schema.surface_file import SurfaceSection
 from mixedlub.schema.system_file import Gears, Lubricant
 from mixedlub.study.schema import Numbers, Options, each_once
 
-Side = Literal["pinion", "gear"]
-SIDES = {"pinion": "first entry of [gears]", "gear": "second entry"}
-Positive = Annotated[Number, Field(gt=0.0)]
 MOST_CONDITIONS = 250_000
 """Largest number of torques times speeds of a map."""
-NotNegative = Annotated[Number, Field(ge=0.0)]
-
-
-def _law(kind: Kind, example: str) -> Any:
-    names = ", ".join(of_kind(kind))
-    return key(f"law of its {GIVES[kind]} ({names}); `mixedlub parts LAW` shows its page", example=example)
-
-
-class Part(Section):
-    """Keys of every part."""
-
-    law: str = key("law", example="palmgren")
-    coefficients: dict[str, Number] = key("NAME = VALUE: coefficients of the law, by the names of its page", {})
-    factor: NotNegative = key("factor on its loss, as for walls and deflectors of a housing", 1.0)
-    count: Whole = key("how many of it there are", 1, ge=1, le=1000)
-
-
-class Bearing(Part):
-    """Rolling bearing, with its position on the shaft or its shares of the forces."""
-
-    law: str = _law("bearing", "skf_deep_groove")
-    shaft: Side = key("the shaft that it carries", example="pinion", values=SIDES)
-    series: str | None = key("series of SKF's tables, or type of Palmgren's; or coefficients", None, example="62")
-    bore_mm: Positive = key("bore", example=35.0)
-    outside_diameter_mm: Positive = key("outside diameter", example=72.0)
-    static_rating_N: Positive | None = key("static load rating C0; only laws that read it", None, example=15300.0)
-    position_mm: Number | None = key(
-        "position along the shaft from the middle of its wheel, counted to the same side on all shafts; loads then "
-        "follow from the balance of two bearings, in place of shares",
-        None,
-        example=-25.0,
-        alternative=True,
-    )
-    axial: Literal["fixed", "loose", "positive", "negative"] | None = key(
-        "with positions: axial force that it takes; without position_mm it carries thrust alone",
-        None,
-        values={
-            "fixed": "in both directions",
-            "loose": "none, as where it is left out",
-            "positive": "a force towards growing positions",
-            "negative": "a force towards falling positions",
-        },
-        alternative=True,
-    )
-    radial_share: NotNegative = key("share of the mesh force that it carries; adds up to 1 over the shaft", 0.5)
-    axial_share: NotNegative = key(
-        "share of the axial force of a helical mesh that it carries; adds up to 1 over the shaft", 0.0
-    )
-    radial_load_N: NotNegative = key("radial load besides", 0.0)
-    axial_load_N: NotNegative = key("axial load besides, as of preload", 0.0)
-
-    @model_validator(mode="after")
-    def _ring(self) -> Bearing:
-        if self.outside_diameter_mm <= self.bore_mm:
-            raise ValueError(f"outside_diameter_mm {self.outside_diameter_mm:g} must be above bore_mm {self.bore_mm:g}")
-        return self
-
-
-class Seal(Part):
-    law: str = _law("seal", "iso_tr_14179_2")
-    shaft: Side = key("the shaft that it seals", example="pinion", values=SIDES)
-    series: str | None = key("type of bearing whose seals they are; only skf_bearing_seals", None)
-    diameter_mm: Positive = key("diameter of the shaft at the lip", example=35.0)
-
-
-class Windage(Part):
-    law: str = _law("windage", "diab")
-    wheel: Side = key("the wheel", example="gear", values=SIDES)
-
-
-class Churning(Part):
-    law: str = _law("churning", "changenet_velex")
-    wheel: Side = key("the wheel that dips into oil", example="gear", values=SIDES)
-    immersion_mm: Positive | None = key("depth below the oil level; only laws that read it", None, example=20.0)
-    oil_volume_l: Positive | None = key("volume of the oil; only laws that read it", None, example=2.0, unit="l")
-
-
-class Pocketing(Part):
-    law: str = _law("pocketing", "incompressible")
-    exit_area_mm2: Positive = key("area through which a tooth space is emptied", example=40.0, unit="mm²")
-
-
-class Jet(Part):
-    law: str = _law("jet", "ariura")
-    wheel: Side = key("the wheel that the jet meets", example="pinion", values=SIDES)
-    oil_flow_l_min: Positive = key("oil that meets the teeth", example=2.5, unit="l/min")
-    jet_speed_m_s: NotNegative = key("speed of the jet", 0.0)
-
-
-class Other(Part):
-    law: str = _law("other", "own_torque")
-    shaft: Side = key("the shaft that it brakes", example="pinion", values=SIDES)
 
 
 class SharedShaft(Section):
@@ -123,11 +40,6 @@ class SharedShaft(Section):
         "from the mate of the stage before to the mate of this one, seen from the shaft, in its sense of rotation",
         180.0,
     )
-
-
-class Flanks(Section):
-    pinion: SurfaceSection = key("surface of the pinion")
-    gear: SurfaceSection = key("surface of the gear")
 
 
 class Stage(Section):
@@ -214,7 +126,31 @@ class EfficiencyFile(Section):
     )
     cycle: Cycle = key("the condition of the mesh cycle and of the breakdown", Cycle())
     duty: Duty | None = key("operating points with hours: energy and mean efficiency", None)
-    stages: dict[str, Stage] = key("one table a stage, in the order of the power", min_length=1)
+    stages: dict[str, Stage] = key("one table a stage of one gear pair, in the order of the power", {})
+    planetary: dict[str, PlanetaryStage] = key("one table a planetary stage, in the order of the power", {})
+    order: tuple[str, ...] = key(
+        "names of all stages in the order of the power; needed where there are stages of both kinds",
+        (),
+        example=["first"],
+    )
+
+    @model_validator(mode="after")
+    def _ordered(self) -> EfficiencyFile:
+        named = (*self.stages, *self.planetary)
+        if not named:
+            raise ValueError("needs a table stages.NAME or planetary.NAME")
+        if twice := sorted(set(self.stages) & set(self.planetary)):
+            raise ValueError(f"stages and planetary: two stages have the name {twice[0]!r}")
+        if self.order and sorted(self.order) != sorted(named):
+            raise ValueError(f"order must name each stage once: {', '.join(named)}")
+        if not self.order and self.stages and self.planetary:
+            raise ValueError(f"order is needed where there are stages of both kinds, as order = {list(named)}")
+        return self
+
+    @property
+    def in_order(self) -> tuple[str, ...]:
+        """Names of the stages in the order of the power."""
+        return self.order or (*self.stages, *self.planetary)
 
     @model_validator(mode="after")
     def _loaded_cycle(self) -> EfficiencyFile:

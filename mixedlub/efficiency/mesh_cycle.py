@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.chain.model import Model
-from mixedlub.efficiency.gearbox import Gearbox, Losses, StageModel
+from mixedlub.efficiency.gearbox import Gearbox, Losses
 from mixedlub.efficiency.meshes import LOCAL, conditioned
+from mixedlub.efficiency.stage import StageModel
 from mixedlub.gear import GearPair, LdpSharing, Mesh, at_roll_angle
 from mixedlub.study.plan import HEAT, mesh_inputs
 
@@ -149,13 +150,13 @@ def _at_points(stage: StageModel, torque: float, speed: float, points: Mesh) -> 
 
 
 def mesh_cycles(gearbox: Gearbox, at: Losses) -> list[MeshCycle]:
-    """Cycles of all stages at one input condition; the input of a stage is the output of the stage before."""
+    """Cycles of all meshes at one input condition; the input of a stage is the output of the stage before."""
     power, speed = float(at.input_power[0]), float(at.speed[0])
     found = []
     for stage in gearbox.stages:
         if power <= 0.0:
             break
-        found.append(mesh_cycle(stage, power / speed, speed, gearbox.file.cycle.positions))
+        found += [mesh_cycle(*one, gearbox.file.cycle.positions) for one in stage.cycles(power / speed, speed)]
         power -= float(at.total(stage=stage.name)[0])
         speed /= stage.ratio
     return found

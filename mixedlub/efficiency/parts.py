@@ -11,7 +11,8 @@ import numpy as np
 from mixedlub.chain.documented import few
 from mixedlub.chain.part_law import GIVEN, Kind, PartLaw
 from mixedlub.chain.ranges import UNBOUNDED, Limit, Reached, declared
-from mixedlub.efficiency.file import Bearing, Churning, Part, Stage
+from mixedlub.efficiency.file import Stage
+from mixedlub.efficiency.part_tables import Bearing, Churning, Part, RollingBearing
 from mixedlub.efficiency.shafts import Load
 from mixedlub.gear import GearPair
 from mixedlub.laws.drag import FAST_BATH, bath_acceleration
@@ -55,17 +56,37 @@ class StagePart:
     def loss(self, pair: GearPair, oil: Mapping[str, float], torque: np.ndarray, speed: np.ndarray) -> np.ndarray:
         """Power loss (W) at torques (N m) and speeds (rad/s) of the pinion."""
         own = speed if self.side == 0 else speed / pair.gear_ratio
-        state = {**_wheel(pair, self.side), **oil, "shaft_speed": own, **self._loads(torque), **self._given()}
+        radial, axial = self.load
+        return self._power(own, {**_wheel(pair, self.side), **oil}, radial * torque, axial * torque)
+
+    def at(self, speed: np.ndarray, oil: Mapping[str, float], radial: np.ndarray | float) -> np.ndarray:
+        """Power loss (W) of a part without wheel at speeds (rad/s) and radial loads (N) of its shaft."""
+        return self._power(speed, oil, radial, 0.0)
+
+    @property
+    def shaft(self) -> str:
+        """Shaft or member of the part as named in the file."""
+        return str(getattr(self.section, "shaft", ""))
+
+    def _power(
+        self, own: np.ndarray, known: Mapping[str, Any], radial: np.ndarray | float, axial: np.ndarray | float
+    ) -> np.ndarray:
+        """Power loss (W) at shaft speeds (rad/s) with forces (N) of the meshes."""
+        loads = {}
+        if isinstance(self.section, RollingBearing):
+            loads["radial_load"] = radial + self.section.radial_load_N
+            loads["axial_load"] = axial + self.section.axial_load_N
+        state = {**known, "shaft_speed": own, **loads, **self._given()}
         found = np.asarray(self.law.law(*(state[name] for name in self.law.reads), **self.coefficients))
         power = found * own if self.law.kind in ("bearing", "seal", "other") else found
-        return np.broadcast_to(self.section.factor * self.section.count * power, torque.shape)
+        return np.broadcast_to(self.section.factor * self.section.count * power, own.shape)
 
     def reached(self, pair: GearPair, speed: np.ndarray) -> Reached:
         """Limits of the law with values at speeds (rad/s) of the pinion."""
         if BATH not in declared(self.law.law):
             return []
         own = speed if self.side == 0 else speed / pair.gear_ratio
-        size = (pair.operating_radius[self.side], pair.face_width, pair.normal_module)
+        size = (abs(pair.operating_radius[self.side]), pair.face_width, pair.normal_module)
         bath = bath_acceleration(own, *map(np.asarray, size))
         advice = (
             f"churning of {self.name} by {self.law.title} goes over to the law of high speed, which viscosity does not "
@@ -77,15 +98,6 @@ class StagePart:
         values = self.section.model_dump()
         return {n: values[k] * unit for n, (k, unit) in GIVEN.items() if n in self.law.reads}
 
-    def _loads(self, torque: np.ndarray) -> dict[str, np.ndarray]:
-        if not isinstance(self.section, Bearing):
-            return {}
-        radial, axial = self.load
-        return {
-            "radial_load": radial * torque + self.section.radial_load_N,
-            "axial_load": axial * torque + self.section.axial_load_N,
-        }
-
 
 def parts_of(stage: Stage, pair: GearPair, loads: Mapping[str, Load], where: str) -> Iterator[StagePart]:
     """Parts of a stage, checked against their laws.
@@ -95,13 +107,14 @@ def parts_of(stage: Stage, pair: GearPair, loads: Mapping[str, Load], where: str
     for table in KINDS:
         for name, section in getattr(stage, table).items():
             place = f"{where}.{table}.{name}"
-            part = _part(table, name, section, place)
+            part = part_of(table, name, section, place)
             if isinstance(section, Churning):
-                _check_immersion(section, pair.operating_radius[part.side], place)
+                _check_immersion(section, abs(pair.operating_radius[part.side]), place)
             yield replace(part, load=loads.get(name, NO_LOAD)) if isinstance(section, Bearing) else part
 
 
-def _part(table: str, name: str, section: Part, where: str) -> StagePart:
+def part_of(table: str, name: str, section: Part, where: str) -> StagePart:
+    """Part of a table of the file, checked against its law."""
     law = find(KINDS[table], section.law, f"{where}.law")
     _check_keys(law, section, where)
     given: dict[str, float] = dict(section.coefficients)
@@ -125,22 +138,29 @@ def bearing_findings(
 
     ``idles``: conditions without torque are computed.
     """
-    section = part.section
-    if not isinstance(section, Bearing):
+    if not isinstance(part.section, Bearing):
         return
-    place, mean = f"{where}.bearings.{part.name}", 0.5 * (section.bore_mm + section.outside_diameter_mm)
-    rating = section.static_rating_N
-    if rating is not None and not LEAST_RATING <= rating / mean**2 <= LARGEST_RATING:
-        low, high = (f"{limit * mean**2:.2g}" for limit in (LEAST_RATING, LARGEST_RATING))
-        unit = "kN where N is asked for?" if rating < LEAST_RATING * mean**2 else "is its unit N?"
-        text = f"{rating:g} N is outside {low} to {high} N, which bearings of this size have ({unit})"
-        yield finding("static_rating_implausible", text, f"{place}.static_rating_N")
+    place = f"{where}.bearings.{part.name}"
+    yield from rating_findings(part, place)
     if idles and not part.loss(pair, oil, np.zeros(1), np.array([100.0])).any():
         text = (
             f"loses nothing at zero torque: {part.law.name} has no torque without load; drag of the oil and the least "
             "load of the bearing are not in it: give radial_load_N or axial_load_N (weight, preload)"
         )
         yield finding("bearing_free_without_load", text, place)
+
+
+def rating_findings(part: StagePart, place: str) -> Iterator[Finding]:
+    """Doubt about a static rating untypical of the bearing size."""
+    section = part.section
+    if not isinstance(section, RollingBearing):
+        return
+    rating, mean = section.static_rating_N, 0.5 * (section.bore_mm + section.outside_diameter_mm)
+    if rating is not None and not LEAST_RATING <= rating / mean**2 <= LARGEST_RATING:
+        low, high = (f"{limit * mean**2:.2g}" for limit in (LEAST_RATING, LARGEST_RATING))
+        unit = "kN where N is asked for?" if rating < LEAST_RATING * mean**2 else "is its unit N?"
+        text = f"{rating:g} N is outside {low} to {high} N, which bearings of this size have ({unit})"
+        yield finding("static_rating_implausible", text, f"{place}.static_rating_N")
 
 
 def _check_keys(law: PartLaw, section: Part, where: str) -> None:
@@ -172,13 +192,13 @@ def _wheel(pair: GearPair, side: int) -> dict[str, Any]:
     """Sizes of a wheel by quantity of the part laws."""
     root = pair.reference_radius[side] + pair.normal_module * (pair.profile_shift[side] - pair.dedendum)
     return {
-        "wheel_radius": pair.operating_radius[side],
+        "wheel_radius": abs(pair.operating_radius[side]),
         "face_width": pair.face_width,
         "gear_module": pair.normal_module,
-        "wheel_teeth": float(pair.teeth[side]),
+        "wheel_teeth": float(abs(pair.teeth[side])),
         "helix_angle": abs(pair.helix_angle),
-        "root_diameter": 2.0 * root,
-        "tip_diameter": 2.0 * pair.tip_radii[side],
+        "root_diameter": 2.0 * abs(root),
+        "tip_diameter": 2.0 * abs(pair.tip_radii[side]),
     }
 
 

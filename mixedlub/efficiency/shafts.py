@@ -10,7 +10,8 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from mixedlub.efficiency.file import Bearing, Side, Stage
+from mixedlub.efficiency.file import Stage
+from mixedlub.efficiency.part_tables import Bearing, Side
 from mixedlub.gear import GearPair
 from mixedlub.schema.findings import Finding, finding
 from profiles.errors import InputError
@@ -95,10 +96,11 @@ class Wheel:
     def force(self) -> WheelForce:
         """Force on the wheel at a shaft torque of 1 N m, without friction of the mesh."""
         pair, towards = self.pair, cmath.exp(1j * self.angle)
-        radius, angle = pair.operating_radius[0 if self.side == "pinion" else 1], pair.working_pressure_angle
+        rolling, angle = pair.operating_radius[0 if self.side == "pinion" else 1], pair.working_pressure_angle
+        radius = abs(rolling)
         tangential = -1.0 / radius if self.side == self.section.driving else 1.0 / radius
         thrust = math.tan(abs(pair.base_helix_angle)) / (radius * math.cos(angle))
-        across = towards * complex(-math.tan(angle) / radius, tangential)
+        across = towards * complex(-math.tan(angle) / rolling, tangential)  # a ring is pressed outwards
         return WheelForce(self.position, across, self._direction() * thrust, radius * towards)
 
     def _direction(self) -> float:
@@ -151,7 +153,7 @@ def bearing_loads(stages: Mapping[str, Stage], pairs: Mapping[str, GearPair]) ->
 def _far(stages: Mapping[str, Stage], pairs: Mapping[str, GearPair]) -> Iterator[Finding]:
     """Findings on positions and distances along shafts that are far larger than the gears."""
     for name, stage in stages.items():
-        centres = 1e3 * pairs[name].working_centre_distance
+        centres = 1e3 * abs(pairs[name].working_centre_distance)
         placed = {f"bearings.{key}.position_mm": one.position_mm for key, one in stage.bearings.items()}
         if stage.shared_shaft is not None:
             placed["shared_shaft.distance_mm"] = stage.shared_shaft.distance_mm

@@ -9,6 +9,7 @@ import pandas as pd
 
 from mixedlub.efficiency.gearbox import MESH, ORIGINS, Gearbox, Losses, Origin
 from mixedlub.efficiency.mesh_cycle import MeshCycle
+from mixedlub.efficiency.planetary_table import TABLES as PLANETARY
 from mixedlub.schema.result import column, described, frame_of
 
 RPM = 30.0 / np.pi
@@ -91,6 +92,7 @@ TABLES = {
         mean_gearbox_efficiency_percent="1 less energy lost over energy taken in",
         ORIGIN_energy_kWh="part of the energy lost by its origin",
     ),
+    **PLANETARY,
 }
 """Columns of the tables of `mixedlub efficiency`."""
 
@@ -120,13 +122,13 @@ def loss_map(losses: Losses) -> pd.DataFrame:
 
 def breakdown_table(at: Losses) -> pd.DataFrame:
     """Loss of every mesh and part at one condition, with law and share of the total; the last row is the sum."""
-    parts = ((stage, part) for stage in at.gearbox.stages for part in stage.parts)
+    parts = ((stage, part) for stage in at.gearbox.stages for part in stage.all_parts)
     laws = {(stage.name, part.table, part.name): part.law.title for stage, part in parts}
     total = float(at.total()[0])
     rows = []
     for (stage, origin, part), value in at.by_origin.items():
         law = laws.get((stage, origin, part), "")
-        rows.append((stage, origin, part, law or _friction(at.gearbox, stage), float(value[0])))
+        rows.append((stage, origin, part, law or _friction(at.gearbox, stage, part), float(value[0])))
     rows.append(("all", "total", "", "", total))
     table = pd.DataFrame(rows, columns=[one.name for one in TABLES["breakdown"][:-1]])
     table["share_percent"] = 100.0 * table["loss_W"] / total
@@ -199,6 +201,6 @@ def _column(origin: Origin) -> str:
     return "_".join([*filter(None, origin), "loss_W"])
 
 
-def _friction(gearbox: Gearbox, name: str) -> str:
+def _friction(gearbox: Gearbox, name: str, mesh: str) -> str:
     stage = next(stage for stage in gearbox.stages if stage.name == name)
-    return str(stage.study.file.options.friction)
+    return str(stage.mesh_of(mesh).study.file.options.friction)

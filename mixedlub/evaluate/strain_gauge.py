@@ -153,6 +153,8 @@ def _average(file: StrainGaugeFile, one: MeshRecording, folder: Path) -> Average
 def meshing_of(pair: GearPair, wheel: str, teeth: int, margin: float) -> Meshing:
     """Roll angles (deg) of the instrumented wheel at the start of contact, pitch point and end of contact."""
     number = 0 if wheel == "pinion" else 1
+    if number and pair.ring:
+        raise InputError("gauges on the teeth of a ring gear are not evaluated", where="gauges.wheel", value=wheel)
     radius = pair.base_radius[number]
     ways = [pair.path_start, pair.pitch_point, pair.path_end]
     if number:
@@ -218,7 +220,7 @@ def _table(
     way = np.radians(forces.roll_angle) * pair.base_radius[0 if wheel == "pinion" else 1]
     pinion = way if wheel == "pinion" else pair.line_of_action_length - way
     omega = one.speed_rpm * math.pi / 30.0
-    other = (pair.line_of_action_length - pinion) / pair.gear_ratio
+    other = (pair.line_of_action_length - pinion) / pair.teeth_ratio
     value, sd = friction_of(forces)
     found: dict[str, Any] = {
         "recording": np.full(pinion.size, name),

@@ -132,15 +132,15 @@ def iso_single_stiffness(pair: GearPair) -> float:
     """Theoretical stiffness c'_th of one tooth pair per unit face width, N/m per m (1e9 = 1 N/(mm um)).
 
     1/q' with q' = 0.04723 + 0.15551/z_1 + 0.25791/z_2 - 0.00635 x_1 - 0.11654 x_1/z_1 - 0.00193 x_2
-    - 0.24188 x_2/z_2 + 0.00529 x_1^2 + 0.00182 x_2^2 in mm um/N, z the equivalent spur teeth. Steel, standard
-    rack. Source: ISO 6336-1, method B.
+    - 0.24188 x_2/z_2 + 0.00529 x_1^2 + 0.00182 x_2^2 in mm um/N, z the equivalent spur teeth, infinite for a
+    ring gear. Steel, standard rack. Source: ISO 6336-1, method B.
 
     >>> print(round(iso_single_stiffness(GearPair((17, 43), 1e-3, math.radians(20), 10e-3)) / 1e9, 3))
     16.032
     """
     (x1, x2) = pair.profile_shift
     cosine = math.cos(pair.helix_angle) * math.cos(pair.base_helix_angle) ** 2
-    z1, z2 = pair.teeth[0] / cosine, pair.teeth[1] / cosine
+    z1, z2 = pair.teeth[0] / cosine, math.inf if pair.ring else pair.teeth[1] / cosine
     compliance = 0.04723 + 0.15551 / z1 + 0.25791 / z2 - 0.00635 * x1 - 0.11654 * x1 / z1
     compliance += -0.00193 * x2 - 0.24188 * x2 / z2 + 0.00529 * x1**2 + 0.00182 * x2**2
     return 1e9 / compliance

@@ -35,6 +35,6 @@ def _gap(base: tuple[float, float], length: float, end: float, position: np.ndar
     across, up = end - length, -own
     x = length + across * np.cos(lacking) + up * np.sin(lacking)
     y = mate + own - across * np.sin(lacking) + up * np.cos(lacking)
-    curvature = np.sqrt(np.maximum(x**2 + y**2 - mate**2, 0.0))
-    turn = np.arctan2(curvature, mate) - np.arctan2(x, y)
+    curvature = np.copysign(np.sqrt(np.maximum(x**2 + y**2 - mate**2, 0.0)), mate)
+    turn = np.arctan(curvature / mate) - np.arctan(x / y)
     return curvature - mate * turn - position

@@ -97,6 +97,8 @@ class LdpSharing:
         """Raise an error for undercut flanks, reliefs longer than the path, bores outside the range of the ring law."""
         self.modifications.check(pair)
         _refuse_undercut(pair)
+        if pair.ring:
+            self._refuse_on_ring()
         if self.foundation != "sainsot" or self.bore_radius is None:
             return ()
         found = []
@@ -114,6 +116,13 @@ class LdpSharing:
                 text = f"the ring foundation holds for half root angles of {low:g} to {high:g} rad, here {angle:.3g}"
                 found.append(finding("law_extrapolated", text, WHEELS[wheel]))
         return tuple(found)
+
+    def _refuse_on_ring(self) -> None:
+        """Raise an error for bodies that a ring gear does not have."""
+        for key, wrong in (("foundation", self.foundation != "weber"), ("torque_end", self.torque_end[1] != "none")):
+            if wrong:
+                rule = "a ring gear has neither bore nor solid body: its teeth stand on a half plane without twist"
+                raise InputError(rule, where=key, value=getattr(self, key))
 
     def body_radii(self, pair: GearPair) -> Pair:
         """Radii (m) of the twisting cylinders."""
@@ -161,6 +170,15 @@ def _refuse_undercut(pair: GearPair) -> None:
     """Raise an error if contact starts below the involute that a standard rack leaves."""
     cosine = math.cos(pair.base_helix_angle)
     first = pair.path_start, pair.line_of_action_length - pair.path_end
+    if pair.ring:
+        begins, touched = tooth(pair, 1).involute_start * cosine, -first[1]
+        if touched > begins + 1e-9:
+            raise InputError(
+                f"interference: the pinion's tips touch the ring {(touched - begins) * 1e3:.4g} mm along the path "
+                "beyond its involute, in the fillet",
+                where="tip_diameter_mm",
+                value=round(2e3 * pair.tip_radii[0], 6),
+            )
     for wheel, name in enumerate(WHEELS):
         body = tooth(pair, wheel)
         begins = body.involute_start * cosine

@@ -1,5 +1,8 @@
 """The gear pair of the data sheet: involute geometry in the transverse plane.
 
+A ring gear has a negative number of teeth; its radii, the centre distance and the length of the line of action are then
+negative too, and every equation keeps its form (ISO 21771).
+
 Positions ``x`` run along the line of action from the pinion's base tangent point T1; the pinion drives.
 Letters follow the usual picture: A start, B and D single-contact limits, C pitch point, E end of contact.
 """
@@ -12,11 +15,13 @@ from functools import cached_property
 from typing import Any
 
 from mixedlub.gear.checks import number, two
+from mixedlub.gear.ring import longest_ring_tip, refuse_interference
 from mixedlub.laws.contact import reduced_modulus
 from mixedlub.schema.findings import finding, report
 from profiles.errors import InputError
 
 Pair = tuple[float, float]
+COUNTED = "a number of teeth is a whole number from 4 to 9999, for a ring gear (the second) the same below zero"
 
 
 def involute(angle: float) -> float:
@@ -46,28 +51,28 @@ def inverse_involute(value: float) -> float:
     return angle
 
 
-def _only_external(teeth: tuple[Any, Any]) -> None:
-    """Raise an error for internal gears: by the convention of ISO 21771 their number of teeth is negative."""
-    if not all(isinstance(count, (int, float)) for count in teeth) or min(teeth) >= 0:
-        return
-    small, large = sorted(abs(count) for count in teeth)
-    off = f", and about {(large + small) / (large - small):.2g} times the loss factor" if small < large else ""
-    rule = (
-        "internal gears are not computed, and no external wheel stands for one: it has other sliding, another radius "
-        f"of curvature{off}; compute the external meshes of the set alone (sun and planet), and take the loss of the "
-        "ring's mesh from elsewhere"
-    )
-    raise InputError(rule, where="teeth", value=teeth)
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float))
+
+
+def _of_one_sign(given: dict[str, Any]) -> dict[str, Any]:
+    """Tips and centre distance of a ring gear without the signs that they may have."""
+    tips, centres = given["tip_radius"], given["centre_distance"]
+    if isinstance(tips, (tuple, list)) and len(tips) == 2 and _is_number(tips[1]):
+        tips = tips[0], abs(tips[1])
+    return {**given, "tip_radius": tips, "centre_distance": abs(centres) if _is_number(centres) else centres}
 
 
 @dataclass(frozen=True)
 class GearPair:
-    """A pair of external involute cylindrical gears; first entry of every pair is the driving pinion.
+    """A pair of involute cylindrical gears; first entry of every pair is the driving pinion.
 
-    Lengths in m, angles in rad, moduli in Pa. ``tip_radius=None`` takes the standard addendum ``r + m_n (1 + x)``;
-    ``dedendum``: dedendum of the basic rack over the module, for elastic teeth. ``centre_distance=None`` takes the
-    backlash-free distance of the profile shifts. Data of no working gear pair raise an error with the key in the
-    ``[gears]`` table.
+    Lengths in m, angles in rad, moduli in Pa. The second wheel is a ring gear where its number of teeth is negative;
+    tips and centre distance may then have either sign. A positive profile shift makes a tooth thicker and moves its
+    tip out of the body, on a ring towards the axis. ``tip_radius=None`` takes the standard addendum
+    ``r + m_n (1 + x)``, of a ring no more than meets the involute of the pinion; ``dedendum``: dedendum of the basic
+    rack over the module, for elastic teeth and rings. ``centre_distance=None`` takes the backlash-free distance of the
+    profile shifts. Data of no working gear pair raise an error with the key in the ``[gears]`` table.
 
     Source: ISO 21771, geometry of cylindrical involute gears.
 
@@ -78,6 +83,12 @@ class GearPair:
     ...                centre_distance=91.5e-3, face_width=14e-3)
     >>> round(fzg.contact_ratio, 4), round(fzg.loss_factor, 4)
     (1.4375, 0.195)
+
+    A planet in its ring, with a third of the sliding that an external pair of these teeth would have:
+
+    >>> ring = GearPair(teeth=(27, -72), normal_module=2e-3, pressure_angle=math.radians(20), face_width=20e-3)
+    >>> round(-1e3 * ring.working_centre_distance, 6), round(ring.loss_factor, 4)
+    (45.0, 0.0611)
     """
 
     teeth: tuple[int, int]
@@ -94,11 +105,13 @@ class GearPair:
 
     def __post_init__(self) -> None:
         teeth = two("teeth", self.teeth)
-        _only_external(teeth)
-        for count in teeth:
-            whole = number("teeth", count, 3, 10_000, "a number of teeth is a whole number from 4 to 9999")
+        for count, low, high in ((teeth[0], 3.0, 1e4), (teeth[1], -1e4, 1e4)):
+            whole = number("teeth", count, low, high, COUNTED)
             if whole != int(whole):
                 raise InputError("a number of teeth is a whole number", where="teeth", value=count)
+        if teeth[1] <= 3 and teeth[1] >= -teeth[0]:
+            rule = COUNTED if teeth[1] > -4 else "a ring gear has more teeth than the wheel inside it"
+            raise InputError(rule, where="teeth", value=teeth[1])
         degrees = math.degrees(1.0)
         checked: dict[str, Any] = {"teeth": (int(teeth[0]), int(teeth[1]))}
         checked["normal_module"] = number(
@@ -142,56 +155,67 @@ class GearPair:
         checked["dedendum"] = number(
             "dedendum", self.dedendum, 0.5, 3.0, "the dedendum of a rack lies between 0.5 and 3 modules"
         )
+        sense, given = self.sense, {name: getattr(self, name) for name in (*rules, "tip_radius", "centre_distance")}
+        if self.ring:
+            given = _of_one_sign(given)
         if self.tip_radius is not None:
             rules["tip_radius"] = ("tip_diameter_mm", 0, 100, "a tip diameter is above zero", 2e3)
         for name, (key, low, high, rule, scale) in rules.items():
-            checked[name] = tuple(number(key, entry, low, high, rule, scale) for entry in two(key, getattr(self, name)))
+            checked[name] = tuple(number(key, entry, low, high, rule, scale) for entry in two(key, given[name]))
         if self.centre_distance is not None:
-            checked["centre_distance"] = number(
-                "centre_distance_mm", self.centre_distance, 0, 200, "the centre distance is above zero", 1e3
+            checked["centre_distance"] = sense * number(
+                "centre_distance_mm", given["centre_distance"], 0, 200, "the centre distance is above zero", 1e3
             )
+        if self.tip_radius is not None:
+            checked["tip_radius"] = (checked["tip_radius"][0], sense * checked["tip_radius"][1])
         for name, value in checked.items():
             object.__setattr__(self, name, value)
         self._must_mesh()
 
     def _must_mesh(self) -> None:
-        """Raise an error for data that make no working pair of external gears."""
+        """Raise an error for data that make no working pair of gears."""
+        sense = self.sense
         nominal = sum(self.reference_radius) * math.cos(self.transverse_pressure_angle)
         if self.centre_distance is None:
             if self._working_involute <= 0:
                 raise InputError(
-                    "the two profile shifts are too negative: no centre distance exists",
+                    f"the two profile shifts are too {'positive' if self.ring else 'negative'}: no centre distance "
+                    "exists",
                     where="profile_shift",
                     value=self.profile_shift,
                 )
-        elif self.centre_distance <= nominal:
+        elif sense * self.centre_distance <= sense * nominal:
+            of_both = "difference of the base radii" if self.ring else "sum of the base radii"
+            hint = "" if self.ring else "; a ring gear has a negative number of teeth"
             raise InputError(
-                f"the centre distance must exceed the sum of the base radii, {nominal * 1e3:.6g} mm (internal gears "
-                "are not computed)",
+                f"the centre distance must exceed the {of_both}, {sense * nominal * 1e3:.6g} mm{hint}",
                 where="centre_distance_mm",
-                value=self.centre_distance * 1e3,
+                value=sense * self.centre_distance * 1e3,
             )
         elif self.backlash < -0.1 * self.normal_module:
             raise InputError(
                 f"flanks would overlap by {-self.backlash * 1e3:.4g} mm: too close for these profile shifts",
                 where="centre_distance_mm",
-                value=self.centre_distance * 1e3,
+                value=sense * self.centre_distance * 1e3,
             )
-        if any(tip <= base for tip, base in zip(self.tip_radii, self.base_radius)):
+        if any(abs(tip) <= abs(base) for tip, base in zip(self.tip_radii, self.base_radius)):
             raise InputError(
                 "a tip circle must lie outside its base circle",
                 where="tip_diameter_mm",
-                value=tuple(round(2e3 * radius, 6) for radius in self.tip_radii),
+                value=tuple(round(2e3 * abs(radius), 6) for radius in self.tip_radii),
             )
         standard = "" if self.tip_radius is not None else " (tips of the standard addendum, as none are given)"
-        shown = tuple(round(2e3 * radius, 6) for radius in self.tip_radii)
+        shown = tuple(round(2e3 * abs(radius), 6) for radius in self.tip_radii)
         start, length, end = self.path_start, self.line_of_action_length, self.path_end
         total = self.contact_ratio + self.overlap_ratio
         for broken, rule in (
             (min(self.tip_thickness) <= 0, "pointed teeth: the flanks cross below the tip circle"),
-            (start < -1e-9 * length, "interference: the gear's tips pass the pinion's base tangent point (x_A < 0)"),
             (
-                end > length * (1 + 1e-9),
+                start < -1e-9 * abs(length),
+                "interference: the gear's tips pass the pinion's base tangent point (x_A < 0)",
+            ),
+            (
+                not self.ring and end > length * (1 + 1e-9),
                 "interference: the pinion's tips pass the gear's base tangent point (x_E > T1T2)",
             ),
             (not total >= 1, f"the contact ratio is {total:.4g}; it must be at least 1"),
@@ -199,10 +223,27 @@ class GearPair:
         ):
             if broken:
                 raise InputError(rule + standard, where="tip_diameter_mm", value=shown)
+        if self.ring:
+            refuse_interference(self, shown, standard)
+
+    @property
+    def ring(self) -> bool:
+        """Whether the gear is a ring gear, with teeth inside."""
+        return bool(self.teeth[1] < 0)
+
+    @property
+    def sense(self) -> float:
+        """-1 for a ring gear, else 1: the sign of the gear's radii and of the centre distance."""
+        return -1.0 if self.ring else 1.0
 
     @property
     def gear_ratio(self) -> float:
-        """z2/z1, also omega1/omega2."""
+        """Speed of the pinion over the speed of the gear, |z2|/z1."""
+        return abs(self.teeth[1]) / self.teeth[0]
+
+    @property
+    def teeth_ratio(self) -> float:
+        """u = z2/z1 of the equations, negative for a ring gear."""
         return self.teeth[1] / self.teeth[0]
 
     @cached_property
@@ -233,14 +274,14 @@ class GearPair:
 
     @cached_property
     def tip_radii(self) -> Pair:
-        """Tip radii as given, or of the standard addendum r + m_n (1 + x)."""
+        """Tip radii as given, or of the standard addendum r + m_n (1 + x), on a ring within the pinion's involute."""
         if self.tip_radius is not None:
             return self.tip_radius
         first, second = (
             radius + self.normal_module * (1 + shift)
             for radius, shift in zip(self.reference_radius, self.profile_shift)
         )
-        return first, second
+        return first, min(second, -longest_ring_tip(self)) if self.ring else second
 
     @cached_property
     def _working_involute(self) -> float:
@@ -292,13 +333,13 @@ class GearPair:
 
     @cached_property
     def line_of_action_length(self) -> float:
-        """T1T2 = a_w sin(alpha_wt)."""
+        """T1T2 = a_w sin(alpha_wt); negative for a ring gear, with T2 behind T1."""
         return self.working_centre_distance * math.sin(self.working_pressure_angle)
 
     @cached_property
     def path_start(self) -> float:
-        """x_A: the gear's tip enters; T1T2 - sqrt(r_a2^2 - r_b2^2)."""
-        return self.line_of_action_length - math.sqrt(self.tip_radii[1] ** 2 - self.base_radius[1] ** 2)
+        """x_A: the gear's tip enters; T1T2 - sqrt(r_a2^2 - r_b2^2), of a ring gear with a positive root."""
+        return self.line_of_action_length - self.sense * math.sqrt(self.tip_radii[1] ** 2 - self.base_radius[1] ** 2)
 
     @cached_property
     def path_end(self) -> float:
@@ -354,7 +395,7 @@ class GearPair:
     def loss_factor(self) -> float:
         """Tooth loss factor of rigid teeth with equal sharing.
 
-        H_V = pi (u+1)/(z1 u cos(beta_b)) (1 - eps_alpha + eps_1^2 + eps_2^2).
+        H_V = pi (u+1)/(z1 u cos(beta_b)) (1 - eps_alpha + eps_1^2 + eps_2^2), u = z2/z1 negative for a ring gear.
         Valid for contact ratios from 1 to 2.
 
         Source: Ohlendorf 1958, in the form of Niemann and Winter, Maschinenelemente II.
@@ -362,7 +403,7 @@ class GearPair:
         if not 1.0 <= self.contact_ratio <= 2.0:
             text = f"the loss factor holds for contact ratios from 1 to 2, not {self.contact_ratio:.4g}"
             report(finding("law_extrapolated", text, "contact ratio"))
-        ratio = self.gear_ratio
+        ratio = self.teeth_ratio
         scale = math.pi * (ratio + 1) / (self.teeth[0] * ratio * math.cos(self.base_helix_angle))
         return scale * (1 - self.contact_ratio + self.approach_ratio**2 + self.recess_ratio**2)
 
@@ -373,5 +414,5 @@ class GearPair:
         Equal to 0.5 eps_alpha pi (1/z1 + 1/z2): the mean sliding speed of a path with equal approach and
         recess, unweighted by load. Source: Hong, Aneshansley and Talbot, eq. 3 and 4.
         """
-        speeds = (1 + 1 / self.gear_ratio) * (self.path_end - self.path_start)
+        speeds = (1 + 1 / self.teeth_ratio) * (self.path_end - self.path_start)
         return speeds / (4 * self.base_radius[0])

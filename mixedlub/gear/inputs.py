@@ -47,10 +47,10 @@ def gear_inputs(points: Mesh, speed: np.ndarray) -> Inputs:
         "gear_module": pair.normal_module,
         "helix_angle": abs(pair.helix_angle),
         "pinion_radius": pair.operating_radius[0],
-        "gear_radius": pair.operating_radius[1],
+        "gear_radius": abs(pair.operating_radius[1]),
         "gear_speed": speed / pair.gear_ratio,
         "pinion_teeth": float(pair.teeth[0]),
-        "gear_teeth": float(pair.teeth[1]),
+        "gear_teeth": float(abs(pair.teeth[1])),
         "contact_ratio": pair.contact_ratio,
         "gears_fitted": 1.0,
     }

@@ -45,7 +45,7 @@ def local_loss_factor(mesh: Mesh, torque: object) -> np.ndarray:
 
 
 def _scale(pair: GearPair) -> float:
-    """pi (1/z_1 + 1/z_2)."""
+    """pi (1/z_1 + 1/z_2), z_2 negative for a ring gear."""
     return math.pi * (1 / pair.teeth[0] + 1 / pair.teeth[1])
 
 
@@ -79,8 +79,8 @@ def iso_tr_14179_1(pair: GearPair) -> float:
     """
     cosine, sine = math.cos(pair.working_pressure_angle), math.sin(pair.working_pressure_angle)
     first, second = (tip / rolling for tip, rolling in zip(pair.tip_radii, pair.operating_radius, strict=True))
-    start = (pair.gear_ratio + 1) * (math.sqrt(second**2 - cosine**2) - sine)
-    end = (pair.gear_ratio + 1) / pair.gear_ratio * (math.sqrt(first**2 - cosine**2) - sine)
+    start = (pair.teeth_ratio + 1) * (math.sqrt(second**2 - cosine**2) - sine)
+    end = (pair.teeth_ratio + 1) / pair.teeth_ratio * (math.sqrt(first**2 - cosine**2) - sine)
     advantage = 2 * cosine * (start + end) / (start**2 + end**2)
     return math.cos(pair.helix_angle) ** 2 / advantage
 

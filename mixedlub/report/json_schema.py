@@ -31,7 +31,8 @@ def json_schema(name: str) -> dict[str, Any]:
     file = System if name in KINDS else file_class(name)
     schema = file.model_json_schema(by_alias=True)
     definitions = schema.pop("$defs", {})
-    for own, section in ((schema, file), *((definitions.get(one.__name__, {}), one) for one in _sections(file))):
+    inner = dict.fromkeys(_sections(file))
+    for own, section in ((schema, file), *((definitions.get(one.__name__, {}), one) for one in inner)):
         _complete(own, section)
     if name in KINDS and kind(name).by_case is not None:
         _open(definitions)

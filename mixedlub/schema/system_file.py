@@ -101,7 +101,9 @@ class Gears(Section):
         example="fzg_c",
         alternative=True,
     )
-    teeth: tuple[Whole, Whole] = key("numbers of teeth, pinion (driving) and gear", example=[17, 26])
+    teeth: tuple[Whole, Whole] = key(
+        "numbers of teeth, pinion (driving) and gear; below zero, the gear is a ring gear", example=[17, 26]
+    )
     normal_module_mm: Number = key("normal module", example=4.2333333)
     pressure_angle_deg: Number = key("normal pressure angle", 20.0, example=22.5)
     helix_angle_deg: Number = key("helix angle at the pitch circle", 0.0)

@@ -41,8 +41,8 @@ def resolved(study: Study) -> dict[str, Any]:
     file, pair = study.file, study.pair
     inputs = file.model_dump(by_alias=True, exclude_none=True)
     inputs["gears"] |= {
-        "tip_diameter_mm": [_plain(2e3 * radius) for radius in pair.tip_radii],
-        "centre_distance_mm": _plain(pair.working_centre_distance * 1e3),
+        "tip_diameter_mm": [_plain(2e3 * abs(radius)) for radius in pair.tip_radii],
+        "centre_distance_mm": _plain(abs(pair.working_centre_distance) * 1e3),
     }
     sharing = file.gears.load_sharing
     taken = {"model", *sharing.chosen.keys.model_fields}

@@ -105,7 +105,7 @@ class ToothContact:
 
     def _sliding_at(self, position: np.ndarray) -> np.ndarray:
         other = self.pair.line_of_action_length - position
-        return (position - other / self.pair.gear_ratio) / self.pair.base_radius[0]
+        return (position - other / self.pair.teeth_ratio) / self.pair.base_radius[0]
 
     @cached_property
     def face_load(self) -> np.ndarray:
