@@ -5,13 +5,13 @@ from __future__ import annotations
 import re
 import shlex
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import Any
 
 import numpy as np
 
 from mixedlub.importers.answer_keys import COLUMNS
 from mixedlub.importers.base import Answers, Question
-from mixedlub.importers.text_table import ONLY, Cells, is_numeric, values_of
+from mixedlub.importers.cell_columns import Cells, is_numeric, values_of
+from mixedlub.importers.text_table import ONLY
 from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import words_of
 from profiles.errors import InputError, nearest
@@ -44,7 +44,8 @@ def questions(
     unknown = next((header for header in listed if header not in free), None)
     if unknown is not None:
         raise InputError(f"is no column that is left out; {nearest(str(unknown), free)}", where=LEAVE, value=unknown)
-    open_columns = [h for h, cells in free.items() if h not in listed and _decides(h, cells, conditions, reading)]
+    groups = equal_rows(conditions, reading.size)
+    open_columns = [h for h, cells in free.items() if h not in listed and _decides(h, cells, groups, reading)]
     if not open_columns:
         return []
     names = ", ".join(map(repr, open_columns))
@@ -60,7 +61,22 @@ def questions(
     return [Question(LEAVE, text, toml_value(open_columns))]
 
 
-def _decides(header: str, cells: Sequence[str], conditions: Collection[np.ndarray], reading: np.ndarray) -> bool:
+def equal_rows(conditions: Collection[np.ndarray], rows: int) -> list[np.ndarray]:
+    """Rows of readings at equal conditions, where there are enough to show a dependence.
+
+    >>> [group.tolist() for group in equal_rows([np.array([1.0, 2.0, 1.0, 1.0])], 4)]
+    [[0, 2, 3]]
+    """
+    point = np.zeros(rows, dtype=int)
+    for values in conditions:
+        numbered = np.unique(values, return_inverse=True)[1].reshape(-1)
+        point = np.unique(point * (numbered.max(initial=0) + 1) + numbered, return_inverse=True)[1].reshape(-1)
+    order = np.argsort(point, kind="stable")
+    starts = np.flatnonzero(np.diff(point[order], prepend=-1))
+    return [group for group in np.split(order, starts[1:]) if group.size >= FEWEST]
+
+
+def _decides(header: str, cells: Sequence[str], groups: Sequence[np.ndarray], reading: np.ndarray) -> bool:
     """Whether a column is a varying shear rate or orders the readings at equal conditions."""
     if not is_numeric(cells):
         return False
@@ -69,13 +85,8 @@ def _decides(header: str, cells: Sequence[str], conditions: Collection[np.ndarra
         return False
     if SHEAR_RATE.search(words_of(header)):
         return True
-    groups: dict[tuple[Any, ...], list[int]] = {}
-    for row, point in enumerate(zip(*(c.tolist() for c in conditions), strict=True)):
-        groups.setdefault(point, []).append(row)
     related = [
-        abs(_rank_correlation(values[rows], reading[rows]))
-        for rows in groups.values()
-        if len(rows) >= FEWEST and np.unique(values[rows]).size >= FEWEST
+        abs(_rank_correlation(values[rows], reading[rows])) for rows in groups if np.unique(values[rows]).size >= FEWEST
     ]
     return len(related) >= 2 and float(np.median(related)) >= FOLLOWS
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from mixedlub.importers.base import HIDDEN_ROWS, SHEET, Answers, read_note
+from mixedlub.importers.long_table import long_sheet
 from mixedlub.importers.odd_rows import count, places
 from mixedlub.importers.text_table import Sheet, read_sheet
 from mixedlub.schema.cells import with_hyphens
@@ -44,7 +45,8 @@ class InputFile:
     def table(self, decimal: str | None = None) -> Sheet:
         """Table in the text; ``decimal``: decimal mark from an answer."""
         if decimal not in self.tables:
-            self.tables[decimal] = read_sheet(self.text, self.name, decimal, "\t" if self.is_workbook else "")
+            given = (self.text, self.name, decimal, "\t" if self.is_workbook else "")
+            self.tables[decimal] = long_sheet(*given) or read_sheet(*given)
         return self.tables[decimal]
 
 

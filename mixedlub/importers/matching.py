@@ -9,6 +9,7 @@ from typing import Any
 
 from mixedlub.importers.answer_keys import COLUMNS, UNIT_KEYS, UNKNOWN_HEADER, VALUES
 from mixedlub.importers.base import Answers, Question
+from mixedlub.importers.cell_columns import Cells, is_numeric
 from mixedlub.importers.column_units import (
     header_unit_of,
     is_named,
@@ -38,7 +39,6 @@ from mixedlub.importers.likeness import (
 from mixedlub.importers.one_value import without_value
 from mixedlub.importers.speed_from_position import FROM_POSITION, SPEED_FROM, positions
 from mixedlub.importers.surface_speeds import FROM_BOTH_SPEEDS, TURNING, other_surface, turning
-from mixedlub.importers.text_table import Cells, is_numeric
 from mixedlub.importers.time_base import (
     PACE_KEYS,
     TIME,

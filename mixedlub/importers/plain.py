@@ -10,6 +10,7 @@ import numpy as np
 from mixedlub.data_checks.pooled_rows import grouping_columns, pooled_words
 from mixedlub.importers import dropped_columns
 from mixedlub.importers.base import Answers, Draft, Question, contact_form, questions_of, read_note, refuse_unknown
+from mixedlub.importers.cell_columns import Cells, NumberColumn
 from mixedlub.importers.column_units import target_for
 from mixedlub.importers.decimals import DECIMAL, MARKS
 from mixedlub.importers.dropped_columns import LEAVE
@@ -23,7 +24,6 @@ from mixedlub.importers.speed_from_position import SPEED_FROM, with_speed
 from mixedlub.importers.surface_speeds import halved_sum, refuse_one_surface
 from mixedlub.importers.text_table import (
     ONLY,
-    Cells,
     Sheet,
     complete_rows,
     header_of_runs,
@@ -216,7 +216,8 @@ def _values(rule: Column, header: str, sheet: Sheet, unit: str | None) -> np.nda
 
     # Bounds hold in the unit of the case, after the conversion.
     written = rule if rule.dtype == "name" else Column(header, optional_cells=rule.optional_cells)
-    values = written.parse_all(cells)
+    known = isinstance(cells, NumberColumn) and written.dtype == "number" and bool(np.isfinite(cells.values).all())
+    values = cells.values if isinstance(cells, NumberColumn) and known else written.parse_all(cells)
     if values is None:
         values = np.array([written.parse(cell, place(row)) for row, cell in enumerate(cells)])
     if rule.dtype == "name":

@@ -9,9 +9,9 @@ import numpy as np
 
 from mixedlub.importers.answer_keys import COLUMNS
 from mixedlub.importers.base import Answers
+from mixedlub.importers.cell_columns import Cells
 from mixedlub.importers.kinematic import VISCOSITY
 from mixedlub.importers.likeness import likely_headers, likeness_of_reading
-from mixedlub.importers.text_table import Cells
 from mixedlub.kinds import NATIVE
 from mixedlub.kinds import kind as kind_of
 from mixedlub.schema.findings import listed

@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from mixedlub.importers.base import Answers, read_note
-from mixedlub.importers.text_table import Cells, Sheet, TextColumn, is_numeric, values_of
+from mixedlub.importers.cell_columns import Cells, TextColumn, is_numeric, values_of
+from mixedlub.importers.text_table import Sheet
 from mixedlub.importers.time_base import TIME
 from mixedlub.importers.vocabulary import BY_NAME, convert, target_of
 from mixedlub.schema.findings import Finding

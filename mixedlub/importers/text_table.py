@@ -6,16 +6,16 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from mixedlub.importers.base import Answers
+from mixedlub.importers.cell_columns import Cells, TextColumn, missing_rows, taken
 from mixedlub.importers.decimals import Line, common_length, is_written_number, with_points
 from mixedlub.importers.header import header_of
 from mixedlub.importers.odd_rows import cleared, count, places, without_repeated_headers, without_summaries
-from mixedlub.schema.cells import are_numbers, csv_rows, is_missing, is_number
+from mixedlub.schema.cells import csv_rows, is_missing, is_number
 from mixedlub.schema.table import LARGEST
 from mixedlub.schema.units import words_of
 from profiles.errors import InputError, nearest
@@ -95,23 +95,8 @@ ONLY = "import.only."
 """Prefix of a header in the answer with the value, or list of values, of the rows to keep."""
 VALUES_LISTED = 20
 """Most values of a column listed in an error."""
-Cells = Mapping[str, Sequence[str]]
 NUMBERS_SHOWN = 3
 """Most numbers of a header listed in an error."""
-
-
-class TextColumn(list[str]):
-    """Immutable cells of a column; whether they are numbers is determined once."""
-
-    @cached_property
-    def numeric(self) -> bool:
-        """Whether every filled cell is a number."""
-        return are_numbers(self)
-
-    @cached_property
-    def values(self) -> np.ndarray:
-        """Numbers in the cells; nan for other cells."""
-        return np.array([float(cell) if is_number(cell) else np.nan for cell in self])
 
 
 @dataclass(frozen=True)
@@ -161,7 +146,7 @@ def read_sheet(text: str, name: str, decimal: str | None = None, separator: str 
 
 def complete_rows(sheet: Sheet, needed: Sequence[str]) -> tuple[Sheet, list[str]]:
     """Rows without missing cells in the needed columns, and a note for every column that loses rows."""
-    missing = {h: [i for i, cell in enumerate(sheet.cells[h]) if is_missing(cell)] for h in needed}
+    missing = {h: missing_rows(sheet.cells[h]) for h in needed}
     if not any(missing.values()):
         return sheet, []
     incomplete = {i for rows in missing.values() for i in rows}
@@ -170,7 +155,7 @@ def complete_rows(sheet: Sheet, needed: Sequence[str]) -> tuple[Sheet, list[str]
         rule = f"no row is complete: {most!r} is missing in {len(missing[most])} of them"
         raise InputError(rule + _faults_of(sheet, most), where=sheet.name)
     complete = [i for i in range(len(sheet.lines)) if i not in incomplete]
-    cells = {h: TextColumn(values[i] for i in complete) for h, values in sheet.cells.items()}
+    cells = {h: taken(values, complete) for h, values in sheet.cells.items()}
     notes = [
         f"{count(len(rows), 'row')} left out, as {h!r} is missing: {places([sheet.lines[i] for i in rows])}"
         + _faults_of(sheet, h)
@@ -189,16 +174,6 @@ def _faults_of(sheet: Sheet, header: str) -> str:
             "are calculated"
         )
     return f"; there is {', '.join(map(repr, texts[:NUMBERS_SHOWN]))} in its place" if texts else ""
-
-
-def is_numeric(cells: Sequence[str]) -> bool:
-    """Whether a column holds only numbers and empty cells."""
-    return cells.numeric if isinstance(cells, TextColumn) else are_numbers(cells)
-
-
-def values_of(cells: Sequence[str]) -> np.ndarray:
-    """Numbers in cells; nan for other cells."""
-    return (cells if isinstance(cells, TextColumn) else TextColumn(cells)).values
 
 
 def only_keys(answers: Answers) -> tuple[str, ...]:
@@ -223,7 +198,7 @@ def selected_rows(sheet: Sheet, answers: Answers) -> tuple[Sheet, list[str]]:
             raise InputError(f"is in no row; the column has {listed}", where=key, value=value)
         names = ", ".join(map(str, wanted))
         notes.append(f"{len(rows)} of {len(sheet.lines)} rows kept, those with {header} {names}")
-        cells = {h: TextColumn(values[i] for i in rows) for h, values in sheet.cells.items()}
+        cells = {h: taken(values, rows) for h, values in sheet.cells.items()}
         sheet = replace(sheet, cells=cells, lines=tuple(sheet.lines[i] for i in rows))
     return sheet, notes
 
