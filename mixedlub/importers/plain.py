@@ -50,11 +50,6 @@ OWN_COLUMNS = (
 )
 
 
-def matches(text: str) -> bool:
-    """True, since any text may be a table."""
-    return True
-
-
 def draft(file: InputFile, answers: Answers) -> Draft:
     """Draft of a case from a table: columns by header; kind, quantity and missing units are questions.
 

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import numpy as np
 
 from mixedlub.case.import_file import NAME
 from mixedlub.data_checks.case_check import refuse_unreadable
-from mixedlub.importers import labview, pcs, plain, trios
+from mixedlub.importers import plain
 from mixedlub.importers.attachments import is_share, with_attachments, with_share
 from mixedlub.importers.base import (
     EVERY,
@@ -33,7 +32,7 @@ from mixedlub.importers.missing_inputs import gap_lines, gaps, undescribed
 from mixedlub.importers.text_table import joined_runs
 from mixedlub.importers.time_base import TIME, joined_times
 from mixedlub.schema import system_file, toml_file
-from mixedlub.schema.discovery import offered
+from mixedlub.schema.discovery import loaded
 from mixedlub.schema.findings import Finding, Severity, finding, of_severity, report
 from profiles.errors import InputError, nearest
 
@@ -45,8 +44,6 @@ NAMES_SHOWN = 4
 Step = Callable[[str], None]
 """Callback at the start of a task with its name, and at the end with an empty text."""
 
-READERS: tuple[ModuleType, ...] = (pcs, trios, labview, plain)
-"""Readers in order of trial, after readers of other packages (``mixedlub.importers``); any text is a plain table."""
 STEPS = ("reading files", "reading tables", "writing the case", "checking the case")
 
 SCHEMA = "mixedlub-case/1"
@@ -87,7 +84,9 @@ def read(files: Sequence[InputFile], answers: Answers) -> Draft:
 
 
 def _read_one(file: InputFile, answers: Answers) -> Draft:
-    reader = next(r for r in (*offered("mixedlub.importers"), *READERS) if r.matches(file.text))
+    # Readers of other packages come first; what none takes is read as a plain table.
+    readers = [] if file.measured else reversed(loaded("mixedlub.importers.instruments", "mixedlub.importers"))
+    reader = next((one for one in readers if one.matches(file.text)), plain)
     draft: Draft = reader.draft(file, answers)
     return draft
 
@@ -173,7 +172,9 @@ def _opened(files: Sequence[Path], answers: Answers) -> tuple[list[InputFile], d
     opened = [(path, open_file(path, answers)) for path in files]
     shares = [path for path, file in opened if is_share(file.text)]
     if SHEET in answers and not any(file.is_workbook for _, file in opened):
-        raise InputError("none of the files is a workbook (.xlsx)", where=SHEET, value=answers[SHEET])
+        raise InputError(
+            "none of the files has several tables (.xlsx, .tdms, .mat, .mf4)", where=SHEET, value=answers[SHEET]
+        )
     return [file for path, file in opened if path not in shares], with_share(answers, shares)
 
 
