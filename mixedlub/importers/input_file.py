@@ -47,16 +47,16 @@ class InputFile:
     notes: tuple[Finding, ...] = ()
     is_workbook: bool = False
     measured: Sheet | None = None
-    tables: dict[str | None, Sheet] = field(default_factory=dict, repr=False)
+    tables: dict[tuple[str | None, int | None], Sheet] = field(default_factory=dict, repr=False)
 
-    def table(self, decimal: str | None = None) -> Sheet:
-        """Table in the text; ``decimal``: decimal mark from an answer."""
+    def table(self, decimal: str | None = None, number: int | None = None) -> Sheet:
+        """Table in the text; ``decimal``: decimal mark from an answer; ``number``: of several tables, from 1."""
         if self.measured is not None:
             return self.measured
-        if decimal not in self.tables:
+        if (decimal, number) not in self.tables:
             given = (self.text, self.name, decimal, "\t" if self.is_workbook else "")
-            self.tables[decimal] = long_sheet(*given) or read_sheet(*given)
-        return self.tables[decimal]
+            self.tables[decimal, number] = long_sheet(*given) or read_sheet(*given, number)
+        return self.tables[decimal, number]
 
 
 def open_file(path: Path, answers: Answers) -> InputFile:

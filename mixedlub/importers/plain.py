@@ -11,6 +11,7 @@ from mixedlub.data_checks.pooled_rows import grouping_columns, pooled_words
 from mixedlub.importers import dropped_columns
 from mixedlub.importers.base import Answers, Draft, Question, contact_form, questions_of, read_note, refuse_unknown
 from mixedlub.importers.cell_columns import Cells, NumberColumn
+from mixedlub.importers.chosen_table import chosen_table
 from mixedlub.importers.column_units import target_for
 from mixedlub.importers.decimals import DECIMAL, MARKS
 from mixedlub.importers.dropped_columns import LEAVE
@@ -24,6 +25,7 @@ from mixedlub.importers.speed_from_position import SPEED_FROM, with_speed
 from mixedlub.importers.surface_speeds import halved_sum, refuse_one_surface
 from mixedlub.importers.text_table import (
     ONLY,
+    TABLE,
     Sheet,
     complete_rows,
     header_of_runs,
@@ -60,7 +62,8 @@ def draft(file: InputFile, answers: Answers) -> Draft:
         rule = f"no such kind; {nearest(str(kind), NATIVE)}" if kind not in KINDS else OWN_COLUMNS
         raise InputError(rule, where="kind", value=kind)
     _refuse_unknown(kind, answers)
-    sheet, selection_notes = selected_rows(file.table(_decimal(answers)), answers)
+    whole, which, table_notes = chosen_table(file, _decimal(answers), answers)
+    sheet, selection_notes = selected_rows(whole, answers)
     sheet, speed_notes = with_speed(sheet, answers)
     answers = with_whole_headers(answers, sheet.cells)
     with_ratio, left_to_answer, ratio_notes = over_load(sheet, answers)
@@ -75,7 +78,7 @@ def draft(file: InputFile, answers: Answers) -> Draft:
     matched = match(likely, quantity, sheet.cells, answers)
     further = (*matched.questions, *contact_form(likely.name, answers), *questions_of(likely.name))
     if questions:
-        return Draft(kind, None, {}, {}, (*questions, *further))
+        return Draft(kind, None, {}, {}, (*which, *questions, *further))
     rules = {column.name: column for column in wanted(likely, quantity, answers)}
     needed = [h for c, h in matched.headers.items() if rules[c].dtype != "name" and not rules[c].optional_cells]
     sheet, incomplete = complete_rows(sheet, needed)
@@ -100,6 +103,7 @@ def draft(file: InputFile, answers: Answers) -> Draft:
         related += dropped_columns.changing_with(left, reading, quantity)
         doubts += logarithm_doubt(quantity, matched.headers.get(quantity, ""), reading)
     how_read = [
+        *table_notes,
         *selection_notes,
         f"{len(taken)} of {len(sheet.cells)} columns taken: {', '.join(taken)}",
         *([f"not taken: {', '.join(unused)}"] if unused else []),
@@ -122,7 +126,7 @@ def draft(file: InputFile, answers: Answers) -> Draft:
         *(read_note(text, name) for text in not_positive),
         *([read_note(renumbered)] if renumbered else []),
     ]
-    return Draft(kind, quantity, columns, {}, further, tuple(notes), runs)
+    return Draft(kind, quantity, columns, {}, (*which, *further), tuple(notes), runs)
 
 
 def _quantity(likely: Kind, cells: Cells, answers: Answers) -> tuple[str, list[Question]]:
@@ -185,7 +189,7 @@ def _refuse_unknown(kind: str | None, answers: Answers) -> None:
     values = (key for k in kinds for key in value_keys(k))
     refuse_unknown(
         answers,
-        (DECIMAL, DATES, LEAVE, SPEED_FROM, *only_keys(answers), *import_keys(tuple(columns.values())), *values),
+        (DECIMAL, DATES, LEAVE, SPEED_FROM, TABLE, *only_keys(answers), *import_keys(tuple(columns.values())), *values),
     )
 
 
