@@ -36,6 +36,7 @@ from mixedlub.importers.text_table import (
 )
 from mixedlub.importers.time_base import DATES, PACE_KEYS, TIME, continued, date_order, in_seconds, target_in
 from mixedlub.importers.two_forces import COEFFICIENT, over_load
+from mixedlub.importers.two_surfaces import RADII, with_both_speeds
 from mixedlub.importers.vocabulary import convert
 from mixedlub.kinds import KINDS, NATIVE, Kind
 from mixedlub.kinds import kind as kind_of
@@ -75,8 +76,11 @@ def draft(file: InputFile, answers: Answers) -> Draft:
         sheet, answers = with_ratio, left_to_answer
     else:
         ratio_notes = []
+    made = with_both_speeds(sheet, likely, answers)
+    sheet = made.sheet
     matched = match(likely, quantity, sheet.cells, answers)
-    further = (*matched.questions, *contact_form(likely.name, answers), *questions_of(likely.name))
+    asked = [question for question in matched.questions if question.key not in made.replaced]
+    further = (*made.questions, *asked, *contact_form(likely.name, answers), *questions_of(likely.name))
     if questions:
         return Draft(kind, None, {}, {}, (*which, *questions, *further))
     rules = {column.name: column for column in wanted(likely, quantity, answers)}
@@ -120,6 +124,7 @@ def draft(file: InputFile, answers: Answers) -> Draft:
         *(finding("column_changes_with_reading", text, name) for text in related),
         *(finding("viscosity_logarithm", text, name) for text in doubts),
         *speed_notes,
+        *made.notes,
         *ratio_notes,
         *(read_note(text, name) for text in (*filter(None, [sheet.repeated]), *how_read)),
         *clock_notes,
@@ -189,7 +194,17 @@ def _refuse_unknown(kind: str | None, answers: Answers) -> None:
     values = (key for k in kinds for key in value_keys(k))
     refuse_unknown(
         answers,
-        (DECIMAL, DATES, LEAVE, SPEED_FROM, TABLE, *only_keys(answers), *import_keys(tuple(columns.values())), *values),
+        (
+            DECIMAL,
+            DATES,
+            LEAVE,
+            SPEED_FROM,
+            RADII,
+            TABLE,
+            *only_keys(answers),
+            *import_keys(tuple(columns.values())),
+            *values,
+        ),
     )
 
 
