@@ -13,10 +13,10 @@ from mixedlub.importers.base import Answers, Question, read_note
 from mixedlub.importers.cell_columns import Cells, NumberColumn, is_numeric, values_of
 from mixedlub.importers.surface_speeds import TURNING, other_surface, turning
 from mixedlub.importers.text_table import Sheet
-from mixedlub.importers.vocabulary import target_of
+from mixedlub.importers.vocabulary import BY_NAME, target_of
 from mixedlub.kinds import Kind
 from mixedlub.schema.findings import Finding
-from mixedlub.schema.units import change_to, fits, rounded, split, unit_of
+from mixedlub.schema.units import change_to, fits, rounded, split
 from profiles.errors import InputError
 
 RADII = "import.running_radius_mm"
@@ -80,7 +80,7 @@ def _is_given(column: str, cells: Cells, answers: Answers) -> bool:
     if COLUMNS + column in answers or VALUES + column in answers:
         return True
     named = [h for h in cells if (found := target_of(h)) is not None and found.name == column and is_numeric(cells[h])]
-    return any((unit := split(h)[1]) is None or fits(unit, unit_of(column) or "ratio") for h in named)
+    return any((unit := split(h)[1]) is None or fits(unit, BY_NAME[column].unit) for h in named)
 
 
 def _pair(cells: Cells) -> list[str]:
