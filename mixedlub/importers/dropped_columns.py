@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import shlex
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from profiles.errors import InputError, nearest
 
 LEAVE = "import.leave"
 """Key of the headers left out on purpose although readings change with them."""
+CHECK = "recording.check"
 SHEAR_RATE = re.compile(r"\b(?:shear[ _-]?rate|scherrate|schergeschwindigkeit|schergefälle)\b")
 FEWEST = 3
 """Judgement. Fewest distinct values of a column and readings at equal conditions that show a dependence."""
@@ -101,11 +102,33 @@ def _rank_correlation(one: np.ndarray, other: np.ndarray) -> float:
     return float(np.corrcoef(first, second)[0, 1])
 
 
-def changing_with(free: Cells, reading: np.ndarray, quantity: str) -> Iterator[str]:
-    """Notes on omitted columns correlated with the reading, strongest correlation first."""
+def changing_with(free: Cells, reading: np.ndarray) -> dict[str, float]:
+    """Omitted columns by their rank correlation with the reading, strongest first."""
     related = {
         h: abs(_rank_correlation(values_of(cells), reading)) for h, cells in free.items() if is_numeric(cells) and cells
     }
     near = sorted((h for h, share in related.items() if share >= RELATED), key=lambda h: -related[h])
-    for header in near[:MOST_SAID]:
-        yield f"{header!r} is not taken, and changes with {quantity} (rank correlation {related[header]:.2f})"
+    return {header: related[header] for header in near[:MOST_SAID]}
+
+
+def channel_offers(related: Mapping[str, float], quantity: str, answers: Answers) -> tuple[list[Question], list[str]]:
+    """Offer to keep the omitted column that changes most with the reading as a second channel, and notes on all."""
+    notes = [
+        f"{header!r} is not taken, and changes with {quantity} (rank correlation {share:.2f})"
+        for header, share in related.items()
+    ]
+    if not related or CHECK in answers:
+        return [], notes
+    header = next(iter(related))
+    notes[0] += f"; --set {shlex.quote(f'{CHECK}={toml_value(header)}')} keeps it as a second channel"
+    text = f"{header!r} would be left out, and changes with {quantity}: keep it as a second channel"
+    return [Question(CHECK, text, toml_value(header), needed=False)], notes
+
+
+def setup_offers(pooled: Collection[str], taken: Collection[str]) -> list[Question]:
+    """Offer to take a column that tells specimens apart as the set-up."""
+    if not pooled or "setup" in taken:
+        return []
+    header = next(iter(pooled))
+    text = f"{header!r} tells rows of different things apart: take it as the set-up, whose readings share an error"
+    return [Question(f"{COLUMNS}setup", text, toml_value(header), needed=False)]
