@@ -1,7 +1,7 @@
 """Score the answers of a program to a benchmark: python score.py ANSWERS [--truth FOLDER | --check FOLDER].
 
-ANSWERS holds a folder for each case with diagnosis.json and, if readings are predicted, predictions.csv. This file needs
-Python 3.11 alone, no package. It is copied into every exported benchmark as score.py.
+ANSWERS holds a folder for each case with diagnosis.json and, if readings are predicted, predictions.csv. This file
+needs Python 3.11 alone, no package. It is copied into every exported benchmark as score.py.
 """
 
 from __future__ import annotations
@@ -166,7 +166,7 @@ def wilson(share: float, count: int) -> tuple[float, float]:
     z = NormalDist().inv_cdf(0.95)
     middle = (share + z * z / (2 * count)) / (1 + z * z / count)
     half = z / (1 + z * z / count) * math.sqrt(share * (1 - share) / count + z * z / (4 * count * count))
-    return middle - half, middle + half
+    return max(middle - half, 0.0), min(middle + half, 1.0)
 
 
 def figures(cases: list[tuple[Case, Case]], about: Case) -> list[dict[str, Any]]:
