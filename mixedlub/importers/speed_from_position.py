@@ -87,7 +87,7 @@ def with_speed(sheet: Sheet, kind: str | None, answers: Answers) -> tuple[Sheet,
         raise InputError(f"needs a time that rises from row to row; {time!r} does not", where=SPEED_FROM, value=header)
     speed = np.full(place.shape, np.nan)
     speed[known] = size * np.gradient(place[known], seconds[known])
-    made = {column: speed}
+    made: dict[str, np.ndarray] = {column: speed}
     if kind == "friction_history":
         if measure != "m" or (not np.all(speed[known] > 0.0) and not np.all(speed[known] < 0.0)):
             rule = "stops or turns, and the speed of a history must be above 0 in every row"

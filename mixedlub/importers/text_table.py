@@ -323,6 +323,8 @@ def _range(rows: Sequence[Line]) -> str:
 
 RUN_KEY = "import.columns.run"
 RUN_WORDS = ("run", "run number", "run no", "run nr", "test no", "versuch nr", "lfd. nr", "lfd.nr", "nr", "no", "#")
+WORD_BEFORE_NUMBER = re.compile(r"[^\W\d_][^\d]*(?=\d)")
+"""Word before a run number, as in T-017."""
 ANEW = "so readings are renumbered from 1"
 
 
@@ -338,10 +340,12 @@ def header_of_runs(sheet: Sheet, answers: Answers) -> str | None:
 
 
 def runs_of(sheet: Sheet, header: str) -> tuple[np.ndarray | None, str | None]:
-    """Run numbers if whole and unique; else None and the reason."""
+    """Run numbers if whole and unique, behind the same word or none; else None and the reason."""
     line_of: dict[int, int] = {}
+    word = WORD_BEFORE_NUMBER.match(sheet.cells[header][0])
+    before = word[0] if word is not None and all(cell.startswith(word[0]) for cell in sheet.cells[header]) else ""
     for line, cell in zip(sheet.lines, sheet.cells[header], strict=True):
-        number = _whole(cell)
+        number = _whole(cell[len(before) :])
         if number is None:
             return None, f"{sheet.name}: line {line}, {header}: {cell!r} is no whole number, {ANEW}"
         if number in line_of:

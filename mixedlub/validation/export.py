@@ -155,7 +155,7 @@ def card(opened: Sequence[Truth], blind: Sequence[Truth], scores: Sequence[dict[
         "",
         "## Data card",
         "",
-        f"- Dealt by `{dealing}` of mixedlub. The rigs are a second model, written apart from the package, with another",
+        f"- Dealt by `{dealing}` of mixedlub. The rigs are a second model, written apart from it, with another",
         "  discretisation; effects are planted in published forms, and in forms outside the package's list.",
         f"- {readings:g} readings a case (median). Noise is stated, as a share and an absolute part, by a column of",
         "  standard deviations, or by repeats alone.",
