@@ -14,7 +14,7 @@ from profiles.errors import InputError
 
 Ask = Callable[[str], str]
 Say = Callable[[str], None]
-PROMPT = "answers, such as {example} (N? explains; Enter takes what is proposed): "
+PROMPT = "answers, such as {example} (N? explains; Enter takes the proposals): "
 LETTERS = "abcdefghijklmnopqrstuvwxyz"
 CHOSEN = re.compile(r"(\d+)([a-z])")
 TOLD = re.compile(r"(\d+)\s*=(.*)", re.DOTALL)
@@ -54,7 +54,7 @@ def _value(text: str) -> Any:
 def ask_all(questions: Sequence[Question], ask: Ask, say: Say) -> dict[str, Answers]:
     """Answers to questions asked together, by the key of the question; a question left open has none.
 
-    What an empty reply leaves is taken as proposed. Needed questions without a proposal are named again once.
+    An empty reply takes the proposals. Needed questions without a proposal are named again once.
     """
     for line in form(questions):
         say(line)

@@ -63,7 +63,7 @@ def questions(
 
 
 def equal_rows(conditions: Collection[np.ndarray], rows: int) -> list[np.ndarray]:
-    """Rows of readings at equal conditions, where there are enough to show a dependence.
+    """Groups of rows at equal conditions, each with enough readings to show a dependence.
 
     >>> [group.tolist() for group in equal_rows([np.array([1.0, 2.0, 1.0, 1.0])], 4)]
     [[0, 2, 3]]

@@ -134,5 +134,5 @@ def is_numeric_table(table: MeasuredTable) -> bool:
 
 
 def refuse_without(package: str, what: str, where: str) -> InputError:
-    """Error for a file whose reader is an optional package that is absent."""
+    """Error for a file that needs an absent optional package."""
     return InputError(f"is {what}, read by the package {package}: pip install 'mixedlub[rig-files]'", where=where)

@@ -68,7 +68,7 @@ def _time(cells: Cells) -> str | None:
 def with_speed(sheet: Sheet, kind: str | None, answers: Answers) -> tuple[Sheet, list[Finding]]:
     """Table with the speed derived from an answered position, by central differences.
 
-    In a history it is that of a body that slides on one at rest, so the entrainment speed is half of it.
+    In a history one body slides on the other at rest, so the entrainment speed is half of the speed.
     """
     header = answers.get(SPEED_FROM)
     if header is None:

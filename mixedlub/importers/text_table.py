@@ -108,7 +108,7 @@ class Sheet:
 
     ``repeated``: text on repeated headers; ``summaries``: text on omitted rows of means or sums; ``faults``: cells with
     a spreadsheet error or an infinite number, by header and line, which are empty in ``cells``. ``tables``: lines and
-    first headers of every table of the text, where it has several.
+    first headers of every table of a text with several.
     """
 
     name: str

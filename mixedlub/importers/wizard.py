@@ -198,7 +198,7 @@ def whole_round(files: Sequence[InputFile], answers: Answers) -> Draft:
 def _with_replies(
     files: Sequence[InputFile], answers: dict[str, Any], draft: Draft, ask: Ask, say: Say
 ) -> tuple[dict[str, Any], Draft]:
-    """Answers and draft after all questions were asked together, and those again whose answer was refused."""
+    """Answers and draft after all questions were asked together; a question with a refused answer is asked again."""
     asked: set[str] = set()
     refused: dict[str, Mapping[str, Any]] = {}
     while waiting := [q for q in draft.questions if q.key not in answers and q.key not in asked]:

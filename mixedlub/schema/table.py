@@ -206,7 +206,7 @@ def read_table(
 
 
 def _long_table(text: str, columns: tuple[Column, ...], key: tuple[str, ...], source: str) -> Table | None:
-    """Table of a long text whose columns are all known and valid; None for the reading row by row."""
+    """Table of a long text with known and valid columns only; None for the reading row by row."""
     top, _, body = text.partition("\n")
     header = [cell.strip() for cell in top.split(",")]
     known = {c.name: c for c in columns}

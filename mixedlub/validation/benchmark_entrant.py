@@ -15,7 +15,7 @@ from typing import Any
 
 
 def diagnosed(system: dict[str, Any], recordings: list[dict[str, str]]) -> dict[str, Any]:
-    """Answer to a case: what is missing in the base model, with probabilities."""
+    """Answer to a case: physics missing in the base model, with probabilities."""
     return {
         "verdict": ["none"],
         "tied": [["none"]],

@@ -45,7 +45,7 @@ def read_json(file: Path) -> Any:
 
 
 def read_answer(folder: Path) -> Case:
-    """Answer to a case: verdict and probabilities, and what else is given."""
+    """Answer to a case: verdict, probabilities and optional parts."""
     file = folder / "diagnosis.json"
     record = read_json(file)
     for key in ("verdict", "probabilities"):
@@ -111,7 +111,7 @@ def is_crossed(truth: Case, answer: Case, about: Case) -> bool:
 
 
 def log_score(truth: Case, answer: Case, about: Case) -> float:
-    """Sum of the log probabilities of what is so, over all ids."""
+    """Sum of the log probabilities of the true states, over all ids."""
     total = 0.0
     for name in [*about["ids"], *(["unknown"] if about["follows_other_laws"] else sorted(NO_EFFECT))]:
         p = min(max(answer["probabilities"].get(name, FLOOR), FLOOR), 1 - FLOOR)
@@ -120,7 +120,7 @@ def log_score(truth: Case, answer: Case, about: Case) -> float:
 
 
 def held_ratio(truth: Case, answer: Case) -> float:
-    """Rms error of the predictions over that of the calibrated model, at withheld conditions."""
+    """Rms error of the predictions over the error of the calibrated model, at withheld conditions."""
     squares = {"predicted": 0.0, "calibrated": 0.0}
     for run, row in withheld(truth):
         for column in squares:
@@ -138,7 +138,7 @@ def coverage(truth: Case, answer: Case) -> float:
 
 
 def withheld(truth: Case) -> list[tuple[int, Case]]:
-    """Readings whose conditions are given without the reading."""
+    """Runs with withheld readings, by number."""
     return [(run, row) for run, row in truth["rows"].items() if row["withheld"]]
 
 

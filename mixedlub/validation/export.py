@@ -23,7 +23,7 @@ from mixedlub.validation.sample_case import Order
 from profiles.errors import InputError
 
 OPEN_SHARE = 1 / 3
-"""Judgement. Share of the cases whose truth is open, for the entrants to learn from."""
+"""Judgement. Share of the cases with an open truth, for the entrants to learn from."""
 ABOUT = "benchmark.json"
 CHEAP = "recalibration only"
 """Baseline that takes a second a case; the others take minutes and scikit-learn."""

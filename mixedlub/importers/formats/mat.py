@@ -80,7 +80,7 @@ def _is_list_of_structs(value: Any) -> bool:
 def _of_struct(
     name: str, fields: Mapping[str, Any], table: str, times: Any = None
 ) -> Iterator[tuple[str, str, np.ndarray]]:
-    """Channels of a signal with its values, or of a struct of channels, which is a table of its own."""
+    """Channels of a signal with its values, or of a struct of channels as a separate table."""
     values = _first(fields, VALUES)
     if values is None or not isinstance(values, np.ndarray) or values.ndim != 1:
         yield from _channels(fields, name if table == VARIABLES else f"{table}.{name}")
