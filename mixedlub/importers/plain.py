@@ -193,8 +193,8 @@ def _pooled(columns: Cells, file: str) -> Iterator[Finding]:
     for header, cells in columns.items():
         value = toml_value(cells[0]) if not is_number(cells[0]) and re.search(r"[^\w-]", cells[0]) else cells[0]
         only, setup = quoted(f"{ONLY}{header}={value}"), quoted(f"{COLUMNS}setup={toml_value(header)}")
-        text = f"{header!r} is not taken, so {pooled_words(cells)}; to import one of them: --set {only}; to tell them "
-        yield finding("things_pooled", f"{text}apart: --set {setup}", file)
+        text = f"{header!r} is not taken, so {pooled_words(cells)}; to tell them apart: --set {setup}; to import one "
+        yield finding("things_pooled", f"{text}of them: --set {only}", file)
 
 
 def _accelerated(kind: Kind, columns: Mapping[str, np.ndarray]) -> list[str]:
