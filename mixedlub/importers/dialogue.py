@@ -128,7 +128,8 @@ def _read_part(part: str, questions: Sequence[Question], replies: dict[str, Answ
     elif told and 1 <= int(told[1]) <= len(questions):
         _told(questions[int(told[1]) - 1], told[2].strip(), replies, say)
     elif len(questions) == 1 and not told:
-        _told(questions[0], part, replies, say)
+        choices = dict(zip(LETTERS, questions[0].options, strict=False))
+        _told(questions[0], part if part in questions[0].options else choices.get(part, part), replies, say)
     else:
         say(f"{part!r}: say NUMBER=ANSWER with a number from 1 to {len(questions)}")
 

@@ -6,6 +6,8 @@ import pytest
 
 from mixedlub.case.folder import read_case
 from mixedlub.importers import input_file
+from mixedlub.importers.base import Question
+from mixedlub.importers.dialogue import ask_all
 from mixedlub.importers.input_file import InputFile
 from mixedlub.importers.plain import draft
 from mixedlub.importers.text_table import read_sheet
@@ -40,6 +42,26 @@ def test_a_kind_may_be_chosen_by_its_letter(file, tmp_path, at_terminal):
     said = at_terminal(path, tmp_path / "case", [], {"Kind of recording": ["?", "@g"]}).said
     assert any(line.startswith("  viscosity: ") for line in said)
     assert read_case(tmp_path / "case").kind.name == "viscosity"
+
+
+@pytest.mark.parametrize(
+    ("reply", "answer", "said"),
+    [
+        ("b", "disc", None),
+        ("1b", "disc", None),
+        ('1="film"', "film", None),
+        ("film", "film", None),
+        ("1d", None, "1d: no such choice"),
+        ("2=film", None, "'2=film': say NUMBER=ANSWER with a number from 1 to 1"),
+    ],
+)
+def test_one_question_takes_an_answer_by_letter_or_in_words(reply, answer, said):
+    question = Question("kind", "Kind", '"film"', options=("film", "disc"))
+    lines = []
+    replies = iter([reply, "", ""])
+    found = ask_all([question], lambda prompt: next(replies), lines.append)
+    assert found == ({"kind": {"kind": answer}} if answer else {})
+    assert said is None or said in lines
 
 
 def test_headers_that_are_numbers_are_meant_themselves(file, tmp_path, at_terminal):
