@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.running.atomic import fill
 from mixedlub.validation import benchmark_entrant, benchmark_scorer
 from mixedlub.validation.answers import Truth, read_truth
 from mixedlub.validation.baselines import BASELINES, RIGS
@@ -74,7 +73,8 @@ def export(
     scores = [_scored(name, answered, out, sealed, about, jobs, progress) for name in _rivals(kinds, baselines)]
     texts["baselines.json"] = json.dumps(scores, indent=1)
     texts["README.md"] = card([truths[f.name] for f in opened], [truths[f.name] for f in blind], scores, dealt.__name__)
-    fill({name: text.encode() for name, text in texts.items()}, given)
+    for name, text in texts.items():
+        (given / name).write_text(text, encoding="utf-8")
     return scores
 
 
