@@ -151,7 +151,7 @@ def card(opened: Sequence[Truth], blind: Sequence[Truth], scores: Sequence[dict[
         "   runs of `conditions.csv`: the calibrated base model, the prediction, its 90 % interval for a reading.",
         "3. Try it on the open part: `python entrant.py open ANSWERS`, then `python score.py ANSWERS`.",
         "4. Answer the blind part: `python entrant.py blind ANSWERS`, then `python score.py ANSWERS --check blind`.",
-        "5. Send ANSWERS to its author, to be scored: `python score.py ANSWERS --truth TRUTHS`.",
+        "5. Send ANSWERS to the author of this folder, who scores them: `python score.py ANSWERS --truth TRUTHS`.",
         "",
         "## Data card",
         "",
