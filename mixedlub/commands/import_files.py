@@ -23,7 +23,7 @@ EXAMPLE = "mixedlub new case --out rig\nmixedlub import rig/recordings.csv --ans
 def command(
     files: Annotated[
         list[Path],
-        typer.Argument(metavar="FILE...", help="Files as the instrument wrote them: text, CSV, .xlsx, each also .gz."),
+        typer.Argument(metavar="FILE...", help="Files as they were written: text, CSV, .xlsx, .mat, .tdms, .mf4."),
     ],
     out: Annotated[Path, typer.Option(metavar="CASE", parser=named_folder, help="Case folder to write.")],
     settings: Annotated[
@@ -34,7 +34,7 @@ def command(
         typer.Option(metavar="FILE.toml", help="Answers, written as in system.toml; files they name come along."),
     ] = None,
     sheet: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Sheet of a workbook; left out, the one with the longest table.")
+        str | None, typer.Option(metavar="NAME", help="Sheet or group to read; left out, the longest table.")
     ] = None,
     overwrite: Annotated[
         bool,
@@ -47,10 +47,11 @@ def command(
 ) -> None:
     """Turn instrument files into a case folder.
 
-    The result is a case for simulate, check and diagnose. At a terminal, questions follow for information missing in
-    the files (? explains a question, =VALUE sets a value for all rows); elsewhere they are listed with the --set line
-    for each answer. Units are never guessed. An existing case that differs is kept unless --overwrite is given. Cut off
-    a start-up and average raw readings before the import; --set import.every=10 keeps one reading of ten.
+    The result is a case for simulate, check and diagnose. At a terminal, all questions on information missing in the
+    files are asked together (N? explains a question, N==VALUE sets a value for all rows); elsewhere they are listed
+    with the --set line for each answer. Units are never guessed. An existing case that differs is kept unless
+    --overwrite is given. Cut off a start-up and average raw readings before the import; --set import.every=10 keeps
+    one reading of ten.
     """
     from mixedlub.importers.base import SHEET, Unanswered
     from mixedlub.importers.wizard import run

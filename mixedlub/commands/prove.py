@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -75,6 +75,14 @@ def command(
             help=f"How many cases to deal; default {FULL}, with --rigs {RIGS}, with --forms one a form.",
         ),
     ] = None,
+    export: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DIR",
+            parser=named_folder,
+            help="Write the battery as a benchmark for other programs into this folder, and diagnose nothing.",
+        ),
+    ] = None,
     jobs: Annotated[int, typer.Option(metavar="N", min=1, help="Cases at a time.")] = 2,
 ) -> None:
     """Test the diagnosis blindly.
@@ -94,6 +102,9 @@ def command(
     from mixedlub.validation.rigs import CONTACTS, OTHERS
     from mixedlub.validation.worlds.deal import plan_worlds, worlds_of
 
+    if export is not None and (real is not None or loop is not None or out is not None):
+        taken = "--out" if out is not None else "--real" if real is not None else "--loop"
+        raise InputError(f"exports dealt batteries into its own folder: leave out {taken}", where="--export")
     if (real is not None or loop is not None) and (rigs or worlds or poor or forms):
         raise InputError("is a battery of its own", where="--real" if real is not None else "--loop")
     if worlds and poor:
@@ -116,6 +127,10 @@ def command(
     default = least if forms else max(default, least)
     prefix = "" if chosen in (CONTACTS, every) else "rigs_" if chosen == OTHERS else f"{'_'.join(chosen)}_"
     dealing = "worlds_" if worlds else "poor_" if poor else "forms_" if forms else ""
+    planner = plan_worlds if worlds else plan_poor if poor else plan_forms if forms else plan
+    if export is not None:
+        _export(export, cases or default, seed, chosen, jobs, not quick, planner)
+        return
     name = f"real_{split}" if real is not None else dealing + prefix + ("quick" if quick else "battery")
     folder = output_folder(out, NAME, name)
     with Progress(console=Console(stderr=True)) as bar:
@@ -138,10 +153,30 @@ def command(
                 jobs=jobs,
                 baselines=contacts and not quick,
                 progress=show,
-                dealt=plan_worlds if worlds else plan_poor if poor else plan_forms if forms else plan,
+                dealt=planner,
             )
     echo((folder / "score.txt").read_text(encoding="utf-8"))
     echo(f"written to {folder}")
+
+
+def _export(
+    folder: Path, cases: int, seed: int, kinds: tuple[str, ...], jobs: int, baselines: bool, planner: Any
+) -> None:
+    """Write a battery as a benchmark."""
+    from mixedlub.commands.console import busy
+    from mixedlub.validation.benchmark_scorer import table
+    from mixedlub.validation.export import export
+
+    output_folder(folder, NAME, "export", knows_own=True)
+    with busy("benchmark") as doing:
+
+        def show(stage: str, done: int, total: int) -> None:
+            doing(f"{stage}: {done} of {total}")
+
+        scores = export(folder, cases, seed, kinds, jobs, baselines, show, planner)
+    for one in scores:
+        echo(f"{one['name']}, on the blind part\n{table(one['figures'])}\n")
+    echo(f"{folder / 'benchmark'} is for entrants, who start from its README.md; keep {folder / 'sealed'} to yourself")
 
 
 def _loop(campaigns: int, folder: Path, seed: int, kinds: tuple[str, ...]) -> str:

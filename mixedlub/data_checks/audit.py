@@ -163,13 +163,15 @@ def _setups(case: Case, rows: Table) -> list[Finding]:
     """Several set-ups without a stated error between them, which is then estimated."""
     if "setup" not in rows or setups_differ(case):
         return []
-    count = np.unique(rows["setup"]).size
-    if count < 2:
+    sizes = np.unique(rows["setup"], return_counts=True)[1]
+    if sizes.size < 2:
         return []
+    alone = int(np.count_nonzero(sizes == 1))
     text = (
-        f"{count} set-ups: the error that readings of one set-up share is not stated, so it is estimated; state it "
-        "as noise.setup_relative or noise.setup_absolute where it is known"
+        f"{sizes.size} set-ups: the error that readings of one set-up share is not stated, so it is estimated; state "
+        "it as noise.setup_relative or noise.setup_absolute where it is known"
     )
+    text += f"; {alone} of them have one reading, which cannot tell that error from noise" if alone else ""
     return [finding("setups_pooled", text)]
 
 

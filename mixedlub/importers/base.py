@@ -24,7 +24,7 @@ Answers = Mapping[str, Any]
 
 
 SHEET = "import.sheet"
-"""Sheet of a workbook to read."""
+"""Sheet of a workbook, or group of a binary file, to read."""
 HIDDEN_ROWS = "import.hidden_rows"
 """Choice to "take" or "leave" hidden rows of a workbook."""
 PART = re.compile(r'"[^"]*"|[^.]+')

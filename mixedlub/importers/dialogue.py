@@ -1,18 +1,25 @@
-"""Dialogue on a question at a terminal: prompt, help and interpretation of replies."""
+"""Dialogue at a terminal: all questions of an import together, help, and interpretation of replies."""
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from mixedlub.importers.answer_keys import UNKNOWN_HEADER, UNKNOWN_UNIT, VALUES
-from mixedlub.importers.base import Question, is_list, listed
+from mixedlub.importers.base import Answers, Question, is_list, listed
 from mixedlub.report.format_reference import about
 from profiles.errors import InputError
 
 Ask = Callable[[str], str]
 Say = Callable[[str], None]
+PROMPT = "answers, such as {example} (N? explains; Enter takes the proposals): "
+LETTERS = "abcdefghijklmnopqrstuvwxyz"
+CHOSEN = re.compile(r"(\d+)([a-z])")
+TOLD = re.compile(r"(\d+)\s*=(.*)", re.DOTALL)
+PARTS = re.compile(r"""(?:"[^"]*"|'[^']*'|[^;"'])+""")
+"""Replies between semicolons outside quotes."""
 
 
 def parse_setting(text: str) -> tuple[str, Any]:
@@ -27,6 +34,16 @@ def parse_setting(text: str) -> tuple[str, Any]:
     return key.strip(), _value(value)
 
 
+def is_likely(question: Question) -> bool:
+    """Whether a needed question has a proposal, or an example that is probable."""
+    return question.needed and not question.placeholder and question.example not in (UNKNOWN_HEADER, UNKNOWN_UNIT)
+
+
+def likely_answer(question: Question) -> Any:
+    """Proposed or probable answer."""
+    return _value(question.example)
+
+
 def _value(text: str) -> Any:
     try:
         return tomllib.loads(f"value = {text.strip()}")["value"]
@@ -34,74 +51,125 @@ def _value(text: str) -> Any:
         return text.strip()
 
 
-def ask_for(question: Question, ask: Ask, say: Say) -> dict[str, Any] | None:
-    """Answer to a question by key; None if it is left open.
+def ask_all(questions: Sequence[Question], ask: Ask, say: Say) -> dict[str, Answers]:
+    """Answers to questions asked together, by the key of the question; a question left open has none.
 
-    An empty reply to a needed question without a likely answer shows the help; a second empty reply leaves it open.
+    An empty reply takes the proposals. Needed questions without a proposal are named again once.
     """
-    words = f"{question.text}: {question.choices}" if question.choices else question.text
-    listing: tuple[str, ...] = ()
+    for line in form(questions):
+        say(line)
+    replies: dict[str, Answers] = {}
     was_empty = False
     while True:
-        reply = ask(f"{words} ({_hint(question)}): ").strip()
-        if not reply and not question.needed:
-            return None
-        if not reply and question.offered:
-            return {question.key: _value(question.example)}
-        if not reply and was_empty:
-            return None
+        reply = ask(PROMPT.format(example=_example(questions))).strip()
+        for part in PARTS.findall(reply):
+            _read_part(part.strip(), questions, replies, say)
+        open_ = [str(n) for n, q in enumerate(questions, start=1) if _stays_open(q) and q.key not in replies]
+        if (not open_ and not reply.endswith("?")) or (not reply and was_empty):
+            break
         was_empty = not reply
-        if was_empty:
-            say("this is needed; Enter again leaves it open, and then no case is written")
-        if reply in ("", "?", "help"):
-            listing = _choices(question)
-            for line in _help(question, listing):
+        if open_ and not reply.endswith("?"):
+            again = "Enter again leaves them open, and then no case is written"
+            say(f"needed: {', '.join(open_)}" + (f"; {again}" if was_empty else ""))
+    proposed = {q.key: {q.key: _value(q.example)} for q in questions if q.needed and q.offered}
+    return {**proposed, **replies}
+
+
+def form(questions: Sequence[Question]) -> Iterator[str]:
+    """Lines with all questions by number, each with its choices by letter and the effect of an empty reply.
+
+    >>> print(*form([Question("kind", "Kind", '"film"', options=("disc", "film"), offered=True)]), sep="\\n")
+    1 question before anything is written; answer by NUMBER=ANSWER, or by number and letter of a choice
+      1  Kind (Enter takes "film")
+           1a disc, 1b film
+    """
+    count = f"{len(questions)} question" + ("s" if len(questions) > 1 else "")
+    several = ", several separated by ';'" if len(questions) > 1 else ""
+    yield f"{count} before anything is written; answer by NUMBER=ANSWER, or by number and letter of a choice{several}"
+    for number, question in enumerate(questions, start=1):
+        hint = _hint(question)
+        yield f"{number:3}  {question.text}" + (f" ({hint})" if hint else "")
+        if question.options:
+            shown = ", ".join(f"{number}{letter} {o}" for letter, o in zip(LETTERS, question.options, strict=False))
+            rest = ", ".join(question.options[len(LETTERS) :])
+            yield f"       {shown}" + (f", or {rest}" if rest else "")
+
+
+def _example(questions: Sequence[Question]) -> str:
+    chosen = next((f"{n}a" for n, q in enumerate(questions, start=1) if q.options), "")
+    told = next((f"{n}={q.example}" for n, q in enumerate(questions, start=1) if not q.options), "")
+    return "; ".join(filter(None, (chosen, told)))
+
+
+def _stays_open(question: Question) -> bool:
+    """Whether an empty reply leaves a needed question open."""
+    return question.needed and not question.offered
+
+
+def _read_part(part: str, questions: Sequence[Question], replies: dict[str, Answers], say: Say) -> None:
+    """Take one reply: choices by letter, an answer to a numbered question, or a wish for help."""
+    letters = [CHOSEN.fullmatch(word) for word in part.split()]
+    told = TOLD.fullmatch(part)
+    if part.rstrip("?").isdecimal() and part.endswith("?") and 1 <= int(part.rstrip("?")) <= len(questions):
+        for line in _help(questions[int(part.rstrip("?")) - 1]):
+            say(line)
+    elif part in ("?", "help"):
+        for question in questions:
+            for line in _help(question):
                 say(line)
-        elif reply.isdecimal() and 1 <= int(reply) <= len(listing):
-            return {question.key: listing[int(reply) - 1]}
-        elif reply in ("=", VALUES, question.one_value):
-            say("one value for all rows is written as =VALUE")
-        elif reply.startswith("=") and question.one_value:
-            return {question.one_value: _value(reply[1:])}
-        elif reply.startswith(VALUES) and "=" in reply:
-            return dict([parse_setting(reply)])
-        else:
-            return {question.key: _value(f"[{reply}]" if is_list(question.example, reply) else reply)}
+    elif letters and all(letters):
+        for match in filter(None, letters):
+            number, place = int(match[1]), LETTERS.index(match[2])
+            if not 1 <= number <= len(questions) or place >= len(questions[number - 1].options):
+                say(f"{match[0]}: no such choice")
+            else:
+                question = questions[number - 1]
+                replies[question.key] = {question.key: question.options[place]}
+    elif told and 1 <= int(told[1]) <= len(questions):
+        _told(questions[int(told[1]) - 1], told[2].strip(), replies, say)
+    elif len(questions) == 1 and not told:
+        choices = dict(zip(LETTERS, questions[0].options, strict=False))
+        _told(questions[0], part if part in questions[0].options else choices.get(part, part), replies, say)
+    else:
+        say(f"{part!r}: say NUMBER=ANSWER with a number from 1 to {len(questions)}")
+
+
+def _told(question: Question, reply: str, replies: dict[str, Answers], say: Say) -> None:
+    """Take an answer in words: a value, or one value for all rows."""
+    if reply in ("=", VALUES, question.one_value) and question.one_value:
+        say("one value for all rows is written as NUMBER==VALUE")
+    elif reply.startswith("=") and question.one_value:
+        replies[question.key] = {question.one_value: _value(reply[1:])}
+    elif reply.startswith(VALUES) and "=" in reply:
+        replies[question.key] = dict([parse_setting(reply)])
+    elif reply:
+        replies[question.key] = {question.key: _value(f"[{reply}]" if is_list(question.example, reply) else reply)}
 
 
 def _hint(question: Question) -> str:
     """Effect of an empty reply, example, and syntax of one value for all rows.
 
     >>> _hint(Question("import.columns.load_N", "Header", UNKNOWN_HEADER, one_value="import.values.load_N"))
-    '=VALUE if all rows have the same; ? explains'
+    'needed; ==VALUE if all rows have the same'
     """
     is_example = question.example not in (UNKNOWN_HEADER, UNKNOWN_UNIT)
     parts = (
+        "needed" if _stays_open(question) else "",
         f"Enter takes {question.example}" if question.offered else "",
-        f"for example {question.example}" if is_example and not question.offered else "",
-        "" if question.needed else "Enter leaves it open",
-        "=VALUE if all rows have the same" if question.one_value else "",
-        "? explains",
+        f"for example {question.example}" if is_example and not question.offered and not question.options else "",
+        "" if question.needed else "may stay open",
+        "==VALUE if all rows have the same" if question.one_value else "",
     )
     return "; ".join(filter(None, parts))
 
 
-def _choices(question: Question) -> tuple[str, ...]:
-    """Choices selectable by number; none if a choice is itself a number."""
-    return () if any(choice.isdecimal() for choice in question.options) else question.options
-
-
-def _help(question: Question, listing: Sequence[str]) -> Iterator[str]:
-    """Help on a question: meaning, choices by number, and the setting for its answer."""
-    if question.meaning:
-        yield question.meaning
-    if listing:
-        yield "a number will do:"
-    for number, choice in enumerate(listing, start=1):
-        yield f"  {number}  {about(choice) if question.key == 'kind' else choice}"
+def _help(question: Question) -> Iterator[str]:
+    """Help on a question: meaning, kinds in words, and the setting for its answer."""
+    yield question.meaning or question.text
     if question.key == "kind":
+        yield from (f"  {about(kind)}" for kind in question.options)
         yield "  (columns and keys of each: mixedlub kinds KIND)"
     if question.one_value:
-        yield "  =VALUE  one value for all rows, for example =" + ("ground" if "surface" in question.key else "40")
+        yield "  ==VALUE  one value for all rows, for example ==" + ("ground" if "surface" in question.key else "40")
     yield "the same answer on the command line:"
     yield from listed([question])

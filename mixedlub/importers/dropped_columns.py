@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import re
 import shlex
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import Any
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
 from mixedlub.importers.answer_keys import COLUMNS
 from mixedlub.importers.base import Answers, Question
-from mixedlub.importers.text_table import ONLY, Cells, is_numeric, values_of
+from mixedlub.importers.cell_columns import Cells, is_numeric, values_of
+from mixedlub.importers.text_table import ONLY
 from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import words_of
 from profiles.errors import InputError, nearest
 
 LEAVE = "import.leave"
 """Key of the headers left out on purpose although readings change with them."""
+CHECK = "recording.check"
 SHEAR_RATE = re.compile(r"\b(?:shear[ _-]?rate|scherrate|schergeschwindigkeit|schergefälle)\b")
 FEWEST = 3
 """Judgement. Fewest distinct values of a column and readings at equal conditions that show a dependence."""
@@ -44,7 +45,8 @@ def questions(
     unknown = next((header for header in listed if header not in free), None)
     if unknown is not None:
         raise InputError(f"is no column that is left out; {nearest(str(unknown), free)}", where=LEAVE, value=unknown)
-    open_columns = [h for h, cells in free.items() if h not in listed and _decides(h, cells, conditions, reading)]
+    groups = equal_rows(conditions, reading.size)
+    open_columns = [h for h, cells in free.items() if h not in listed and _decides(h, cells, groups, reading)]
     if not open_columns:
         return []
     names = ", ".join(map(repr, open_columns))
@@ -60,7 +62,22 @@ def questions(
     return [Question(LEAVE, text, toml_value(open_columns))]
 
 
-def _decides(header: str, cells: Sequence[str], conditions: Collection[np.ndarray], reading: np.ndarray) -> bool:
+def equal_rows(conditions: Collection[np.ndarray], rows: int) -> list[np.ndarray]:
+    """Groups of rows at equal conditions, each with enough readings to show a dependence.
+
+    >>> [group.tolist() for group in equal_rows([np.array([1.0, 2.0, 1.0, 1.0])], 4)]
+    [[0, 2, 3]]
+    """
+    point = np.zeros(rows, dtype=int)
+    for values in conditions:
+        numbered = np.unique(values, return_inverse=True)[1].reshape(-1)
+        point = np.unique(point * (numbered.max(initial=0) + 1) + numbered, return_inverse=True)[1].reshape(-1)
+    order = np.argsort(point, kind="stable")
+    starts = np.flatnonzero(np.diff(point[order], prepend=-1))
+    return [group for group in np.split(order, starts[1:]) if group.size >= FEWEST]
+
+
+def _decides(header: str, cells: Sequence[str], groups: Sequence[np.ndarray], reading: np.ndarray) -> bool:
     """Whether a column is a varying shear rate or orders the readings at equal conditions."""
     if not is_numeric(cells):
         return False
@@ -69,13 +86,8 @@ def _decides(header: str, cells: Sequence[str], conditions: Collection[np.ndarra
         return False
     if SHEAR_RATE.search(words_of(header)):
         return True
-    groups: dict[tuple[Any, ...], list[int]] = {}
-    for row, point in enumerate(zip(*(c.tolist() for c in conditions), strict=True)):
-        groups.setdefault(point, []).append(row)
     related = [
-        abs(_rank_correlation(values[rows], reading[rows]))
-        for rows in groups.values()
-        if len(rows) >= FEWEST and np.unique(values[rows]).size >= FEWEST
+        abs(_rank_correlation(values[rows], reading[rows])) for rows in groups if np.unique(values[rows]).size >= FEWEST
     ]
     return len(related) >= 2 and float(np.median(related)) >= FOLLOWS
 
@@ -90,11 +102,33 @@ def _rank_correlation(one: np.ndarray, other: np.ndarray) -> float:
     return float(np.corrcoef(first, second)[0, 1])
 
 
-def changing_with(free: Cells, reading: np.ndarray, quantity: str) -> Iterator[str]:
-    """Notes on omitted columns correlated with the reading, strongest correlation first."""
+def changing_with(free: Cells, reading: np.ndarray) -> dict[str, float]:
+    """Omitted columns by their rank correlation with the reading, strongest first."""
     related = {
         h: abs(_rank_correlation(values_of(cells), reading)) for h, cells in free.items() if is_numeric(cells) and cells
     }
     near = sorted((h for h, share in related.items() if share >= RELATED), key=lambda h: -related[h])
-    for header in near[:MOST_SAID]:
-        yield f"{header!r} is not taken, and changes with {quantity} (rank correlation {related[header]:.2f})"
+    return {header: related[header] for header in near[:MOST_SAID]}
+
+
+def channel_offers(related: Mapping[str, float], quantity: str, answers: Answers) -> tuple[list[Question], list[str]]:
+    """Offer to keep the omitted column that changes most with the reading as a second channel, and notes on all."""
+    notes = [
+        f"{header!r} is not taken, and changes with {quantity} (rank correlation {share:.2f})"
+        for header, share in related.items()
+    ]
+    if not related or CHECK in answers:
+        return [], notes
+    header = next(iter(related))
+    notes[0] += f"; --set {shlex.quote(f'{CHECK}={toml_value(header)}')} keeps it as a second channel"
+    text = f"{header!r} would be left out, and changes with {quantity}: keep it as a second channel"
+    return [Question(CHECK, text, toml_value(header), needed=False)], notes
+
+
+def setup_offers(pooled: Collection[str], taken: Collection[str]) -> list[Question]:
+    """Offer to take a column that tells specimens apart as the set-up."""
+    if not pooled or "setup" in taken:
+        return []
+    header = next(iter(pooled))
+    text = f"{header!r} tells rows of different things apart: take it as the set-up, whose readings share an error"
+    return [Question(f"{COLUMNS}setup", text, toml_value(header), needed=False)]

@@ -24,9 +24,9 @@ def header_of(lines: Sequence[Sequence[str]]) -> tuple[list[str], int]:
     *above, last = lines
     names = _names_above(above, last)
     if not names:
-        return _unique(last), 1
+        return unique(last), 1
     units = ["" if UNITS_LABEL.fullmatch(unit) else unit.strip("()[]") for unit in last]
-    return _unique([f"{name} ({unit})" if unit else name for name, unit in zip(names, units, strict=True)]), 2
+    return unique([f"{name} ({unit})" if unit else name for name, unit in zip(names, units, strict=True)]), 2
 
 
 def _names_above(above: Sequence[Sequence[str]], units: Sequence[str]) -> list[str]:
@@ -65,7 +65,7 @@ def _in_brackets(cell: str) -> bool:
     return (cell[0], cell[-1]) in (("(", ")"), ("[", "]"))
 
 
-def _unique(header: Sequence[str]) -> list[str]:
+def unique(header: Sequence[str]) -> list[str]:
     """Headers with a number added to repetitions."""
     seen: dict[str, int] = {}
     unique = []

@@ -5,12 +5,17 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 from mixedlub.importers.base import HIDDEN_ROWS, SHEET, Answers, read_note
+from mixedlub.importers.long_table import long_sheet
+from mixedlub.importers.measured import MeasuredTable, joined
 from mixedlub.importers.odd_rows import count, places
 from mixedlub.importers.text_table import Sheet, read_sheet
 from mixedlub.schema.cells import with_hyphens
+from mixedlub.schema.discovery import loaded
 from mixedlub.schema.findings import Finding, finding
 from profiles.errors import InputError, nearest, refuse_no_file
 from profiles.readers.archive import refuse_broken, unpacked
@@ -28,7 +33,9 @@ NO_TABLES = {
     "HTML or XML": re.compile(r"\s*<(?:[!?]|html\b)", re.IGNORECASE),
 }
 """Starts of texts without a table, by name of their format."""
-READ_FORMS = "text with a header line and a row for each reading (.csv, .txt) and workbooks (.xlsx), each also .gz"
+READ_FORMS = (
+    "text with a header line and a row for each reading (.csv, .txt, .lvm), workbooks (.xlsx), .tdms, .mat and .mf4"
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,13 +46,17 @@ class InputFile:
     text: str
     notes: tuple[Finding, ...] = ()
     is_workbook: bool = False
-    tables: dict[str | None, Sheet] = field(default_factory=dict, repr=False)
+    measured: Sheet | None = None
+    tables: dict[tuple[str | None, int | None], Sheet] = field(default_factory=dict, repr=False)
 
-    def table(self, decimal: str | None = None) -> Sheet:
-        """Table in the text; ``decimal``: decimal mark from an answer."""
-        if decimal not in self.tables:
-            self.tables[decimal] = read_sheet(self.text, self.name, decimal, "\t" if self.is_workbook else "")
-        return self.tables[decimal]
+    def table(self, decimal: str | None = None, number: int | None = None) -> Sheet:
+        """Table in the text; ``decimal``: decimal mark from an answer; ``number``: of several tables, from 1."""
+        if self.measured is not None:
+            return self.measured
+        if (decimal, number) not in self.tables:
+            given = (self.text, self.name, decimal, "\t" if self.is_workbook else "")
+            self.tables[decimal, number] = long_sheet(*given) or read_sheet(*given, number)
+        return self.tables[decimal, number]
 
 
 def open_file(path: Path, answers: Answers) -> InputFile:
@@ -61,6 +72,9 @@ def open_file(path: Path, answers: Answers) -> InputFile:
     refuse_broken(data, path.name)
     if is_workbook(data):
         return _from_workbook(worksheets(data, path.name), path.name, answers)
+    form = next((form for form in _formats() if form.matches(data)), None)
+    if form is not None:
+        return _from_tables(form.tables(data, path.name), path.name, answers)
     text = with_hyphens(decoded(_with_mark(data), path.name))
     if "\0" in text[:SAMPLE_LENGTH]:
         raise InputError("is not a text file or workbook; export it as text first", where=path.name)
@@ -68,6 +82,28 @@ def open_file(path: Path, answers: Answers) -> InputFile:
     if markup is not None:
         raise InputError(f"is {markup}, which is no table; import reads {READ_FORMS}", where=path.name)
     return InputFile(path.name, text)
+
+
+@cache
+def _formats() -> tuple[Any, ...]:
+    """Modules of the binary formats, of other packages first."""
+    return tuple(reversed(loaded("mixedlub.importers.formats", "mixedlub.importers.formats")))
+
+
+def _from_tables(tables: Sequence[MeasuredTable], name: str, answers: Answers) -> InputFile:
+    """The answered table of a binary file, or else its longest one with the channels of other clocks."""
+    if not tables:
+        raise InputError("holds no channel of numbers", where=name)
+    wanted, by_name = answers.get(SHEET), {table.name: table for table in tables}
+    if wanted is not None and str(wanted) not in by_name:
+        raise InputError(f"no such table in {name}; {nearest(str(wanted), by_name)}", where=SHEET, value=wanted)
+    chosen, how = joined(tables) if wanted is None else (by_name[str(wanted)], "")
+    others = ", ".join(repr(table.name) for table in tables if table.name != chosen.name)
+    notes = [read_note(how, name)] if how else []
+    if others:
+        why = "" if wanted is not None else f", the longest; {SHEET} names another"
+        notes.append(read_note(f"table {chosen.name!r} is read{'' if how else f', not {others}'}{why}", name))
+    return InputFile(name, "", tuple(notes), is_workbook=True, measured=chosen.sheet(name))
 
 
 def _with_mark(data: bytes) -> bytes:

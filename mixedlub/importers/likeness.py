@@ -10,7 +10,7 @@ import numpy as np
 
 from mixedlub.importers.answer_keys import COLUMNS
 from mixedlub.importers.base import Question
-from mixedlub.importers.text_table import Cells, is_numeric, values_of
+from mixedlub.importers.cell_columns import Cells, is_numeric, values_of
 from mixedlub.importers.time_base import TIME, counted
 from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, WEIGHED, Target, family, is_kinematic, target_of
 from mixedlub.kinds import NATIVE
@@ -327,7 +327,7 @@ def rivals(column: str, taken: str, cells: Cells) -> list[str]:
     target = BY_NAME[column]
     foreign = OTHER_QUANTITIES.union(*(t.spoken for t in BY_NAME.values() if t is not target))
     foreign -= {word for spoken in target.spoken for word in spoken.split()}
-    others = [h for h in cells if h != taken and list(cells[h]) != list(cells[taken])]
+    others = [h for h in cells if h != taken and cells[h] != cells[taken]]
     alike = [h for h in others if target_of(h) in (None, target) and not foreign & set(words_of(h).split())]
     return [h for h in alike if likeness(column, h, cells[h]) >= LEAST_LIKENESS]
 

@@ -9,6 +9,7 @@ from typing import Any
 
 from mixedlub.importers.answer_keys import COLUMNS, UNIT_KEYS, UNKNOWN_HEADER, VALUES
 from mixedlub.importers.base import Answers, Question
+from mixedlub.importers.cell_columns import Cells, is_numeric
 from mixedlub.importers.column_units import (
     header_unit_of,
     is_named,
@@ -19,7 +20,6 @@ from mixedlub.importers.column_units import (
 )
 from mixedlub.importers.kinematic import VISCOSITY
 from mixedlub.importers.likeness import (
-    SLIP,
     WEAR,
     either,
     is_empty,
@@ -37,8 +37,7 @@ from mixedlub.importers.likeness import (
 )
 from mixedlub.importers.one_value import without_value
 from mixedlub.importers.speed_from_position import FROM_POSITION, SPEED_FROM, positions
-from mixedlub.importers.surface_speeds import FROM_BOTH_SPEEDS, TURNING, other_surface, turning
-from mixedlub.importers.text_table import Cells, is_numeric
+from mixedlub.importers.surface_speeds import FROM_BOTH_SPEEDS, other_surface
 from mixedlub.importers.time_base import (
     PACE_KEYS,
     TIME,
@@ -340,9 +339,7 @@ def _offered(cells: Cells, headers: Mapping[str, str]) -> Cells:
 
 
 def _two_speeds(column: str, cells: Cells) -> str:
-    """Reason against offering the speeds of two surfaces or bodies."""
-    if (column in FROM_BOTH_SPEEDS or column == SLIP) and (both := turning(cells)):
-        return f"; {', '.join(both)}: {TURNING}: add a column of it"
+    """Reason against offering the speeds of two surfaces."""
     single = [h for h in cells if other_surface(h, cells) is not None] if column in FROM_BOTH_SPEEDS else []
     made = FROM_BOTH_SPEEDS.get(column, "").removesuffix(" with that of").removesuffix(" to that of")
     return f"; {', '.join(single)}: speeds of single surfaces, {made}, add a column of it" if single else ""

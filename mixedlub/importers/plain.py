@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
 from mixedlub.data_checks.pooled_rows import grouping_columns, pooled_words
 from mixedlub.importers import dropped_columns
+from mixedlub.importers.answer_keys import COLUMNS
 from mixedlub.importers.base import Answers, Draft, Question, contact_form, questions_of, read_note, refuse_unknown
+from mixedlub.importers.cell_columns import Cells, NumberColumn
+from mixedlub.importers.chosen_table import chosen_table
 from mixedlub.importers.column_units import target_for
 from mixedlub.importers.decimals import DECIMAL, MARKS
 from mixedlub.importers.dropped_columns import LEAVE
@@ -19,11 +22,11 @@ from mixedlub.importers.likeness import likely_headers, likely_kind, likeness_of
 from mixedlub.importers.matching import Match, import_keys, match, wanted, with_whole_headers
 from mixedlub.importers.one_value import constants, value_keys
 from mixedlub.importers.recognised import logarithm_doubt, refuse_unrecognised
-from mixedlub.importers.speed_from_position import SPEED_FROM, with_speed
+from mixedlub.importers.speed_from_position import SPEED_FROM, offer_note, speed_question, with_speed
 from mixedlub.importers.surface_speeds import halved_sum, refuse_one_surface
 from mixedlub.importers.text_table import (
     ONLY,
-    Cells,
+    TABLE,
     Sheet,
     complete_rows,
     header_of_runs,
@@ -34,13 +37,16 @@ from mixedlub.importers.text_table import (
 )
 from mixedlub.importers.time_base import DATES, PACE_KEYS, TIME, continued, date_order, in_seconds, target_in
 from mixedlub.importers.two_forces import COEFFICIENT, over_load
+from mixedlub.importers.two_surfaces import RADII, with_both_speeds
 from mixedlub.importers.vocabulary import convert
 from mixedlub.kinds import KINDS, NATIVE, Kind
 from mixedlub.kinds import kind as kind_of
+from mixedlub.kinds.acceleration import COLUMN as ACCELERATION
+from mixedlub.kinds.acceleration import accelerated
 from mixedlub.running.shell import quoted
 from mixedlub.schema.cells import is_number
 from mixedlub.schema.findings import Finding, finding
-from mixedlub.schema.table import Column
+from mixedlub.schema.table import Column, Table
 from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import unit_of
 from profiles.errors import InputError, nearest
@@ -48,11 +54,6 @@ from profiles.errors import InputError, nearest
 OWN_COLUMNS = (
     "has columns of its own, so nothing is recognised: save the table as recordings.csv of a case of this kind"
 )
-
-
-def matches(text: str) -> bool:
-    """True, since any text may be a table."""
-    return True
 
 
 def draft(file: InputFile, answers: Answers) -> Draft:
@@ -65,8 +66,9 @@ def draft(file: InputFile, answers: Answers) -> Draft:
         rule = f"no such kind; {nearest(str(kind), NATIVE)}" if kind not in KINDS else OWN_COLUMNS
         raise InputError(rule, where="kind", value=kind)
     _refuse_unknown(kind, answers)
-    sheet, selection_notes = selected_rows(file.table(_decimal(answers)), answers)
-    sheet, speed_notes = with_speed(sheet, answers)
+    whole, which, table_notes = chosen_table(file, _decimal(answers), answers)
+    sheet, selection_notes = selected_rows(whole, answers)
+    sheet, speed_notes = with_speed(sheet, kind, answers)
     answers = with_whole_headers(answers, sheet.cells)
     with_ratio, left_to_answer, ratio_notes = over_load(sheet, answers)
     if kind is None:
@@ -77,10 +79,13 @@ def draft(file: InputFile, answers: Answers) -> Draft:
         sheet, answers = with_ratio, left_to_answer
     else:
         ratio_notes = []
+    made = with_both_speeds(sheet, likely, answers)
+    sheet = made.sheet
     matched = match(likely, quantity, sheet.cells, answers)
-    further = (*matched.questions, *contact_form(likely.name, answers), *questions_of(likely.name))
+    asked = [question for question in matched.questions if question.key not in made.replaced]
+    further = (*made.questions, *asked, *contact_form(likely.name, answers), *questions_of(likely.name))
     if questions:
-        return Draft(kind, None, {}, {}, (*questions, *further))
+        return Draft(kind, None, {}, {}, (*which, *questions, *further))
     rules = {column.name: column for column in wanted(likely, quantity, answers)}
     needed = [h for c, h in matched.headers.items() if rules[c].dtype != "name" and not rules[c].optional_cells]
     sheet, incomplete = complete_rows(sheet, needed)
@@ -95,16 +100,22 @@ def draft(file: InputFile, answers: Answers) -> Draft:
     unused = [h for h in sheet.cells if h not in matched.headers.values() and h != header]
     conditions = [v for c, v in columns.items() if c not in (quantity, f"{quantity}_sd")]
     left = {h: sheet.cells[h] for h in unused}
-    pooled = _pooled(left, conditions, name)
+    pooled = dict(grouping_columns(left, conditions))
+    no_speed = "entrainment_speed_m_s" not in columns and SPEED_FROM not in answers
+    place = speed_question(likely.name, left, sheet.cells) if no_speed else []
+    further = (*further, *dropped_columns.setup_offers(pooled, columns), *place)
     related: list[str] = []
     doubts: list[str] = []
     if quantity in columns:
         reading = columns[quantity]
         offered = {q.example: q.key for q in matched.questions}
         further = (*dropped_columns.questions(left, conditions, reading, answers, offered), *further)
-        related += dropped_columns.changing_with(left, reading, quantity)
+        correlated = dropped_columns.changing_with(left, reading)
+        offers, related = dropped_columns.channel_offers(correlated, quantity, answers)
+        further = (*further, *offers)
         doubts += logarithm_doubt(quantity, matched.headers.get(quantity, ""), reading)
     how_read = [
+        *table_notes,
         *selection_notes,
         f"{len(taken)} of {len(sheet.cells)} columns taken: {', '.join(taken)}",
         *([f"not taken: {', '.join(unused)}"] if unused else []),
@@ -112,22 +123,24 @@ def draft(file: InputFile, answers: Answers) -> Draft:
         *([f"{sheet.left_out} left out: no part of the table"] if sheet.left_out else []),
         *matched.notes,
         *made_notes,
+        *_accelerated(likely, columns),
     ]
     notes = [
         *(finding("decimal_mark_assumed", text, name) for text in sheet.notes),
         *(finding("rows_left_out", text, name) for text in (*filter(None, [sheet.summaries]), *incomplete)),
-        *(finding("column_not_taken", text, name) for text in matched.warned),
-        *pooled,
+        *(finding("column_not_taken", text, name) for text in (*matched.warned, *map(offer_note, place))),
+        *_pooled(pooled, name),
         *(finding("column_changes_with_reading", text, name) for text in related),
         *(finding("viscosity_logarithm", text, name) for text in doubts),
         *speed_notes,
+        *made.notes,
         *ratio_notes,
         *(read_note(text, name) for text in (*filter(None, [sheet.repeated]), *how_read)),
         *clock_notes,
         *(read_note(text, name) for text in not_positive),
         *([read_note(renumbered)] if renumbered else []),
     ]
-    return Draft(kind, quantity, columns, {}, further, tuple(notes), runs)
+    return Draft(kind, quantity, columns, {}, (*which, *further), tuple(notes), runs)
 
 
 def _quantity(likely: Kind, cells: Cells, answers: Answers) -> tuple[str, list[Question]]:
@@ -175,13 +188,21 @@ def _columns(
     return columns, [note for note in (count_note, density_note, sum_note) if note], clock_notes
 
 
-def _pooled(free: Cells, conditions: Collection[np.ndarray], file: str) -> Iterator[Finding]:
+def _pooled(columns: Cells, file: str) -> Iterator[Finding]:
     """Findings on omitted columns that distinguish groups of rows, which are then pooled."""
-    for header, cells in grouping_columns(free, conditions):
+    for header, cells in columns.items():
         value = toml_value(cells[0]) if not is_number(cells[0]) and re.search(r"[^\w-]", cells[0]) else cells[0]
-        setting = quoted(f"{ONLY}{header}={value}")
-        text = f"{header!r} is not taken, so {pooled_words(cells)}; to import one of them: --set {setting}"
-        yield finding("things_pooled", text, file)
+        only, setup = quoted(f"{ONLY}{header}={value}"), quoted(f"{COLUMNS}setup={toml_value(header)}")
+        text = f"{header!r} is not taken, so {pooled_words(cells)}; to tell them apart: --set {setup}; to import one "
+        yield finding("things_pooled", f"{text}of them: --set {only}", file)
+
+
+def _accelerated(kind: Kind, columns: Mapping[str, np.ndarray]) -> list[str]:
+    """Note on the acceleration that follows from logged speeds of a machine."""
+    table = Table(columns)
+    if kind.name != "friction_map" or ACCELERATION not in accelerated(table, table):
+        return []
+    return ["speed_rpm changes over time_s: the angular acceleration is derived, for the inertia of the machine"]
 
 
 def _refuse_unknown(kind: str | None, answers: Answers) -> None:
@@ -190,7 +211,17 @@ def _refuse_unknown(kind: str | None, answers: Answers) -> None:
     values = (key for k in kinds for key in value_keys(k))
     refuse_unknown(
         answers,
-        (DECIMAL, DATES, LEAVE, SPEED_FROM, *only_keys(answers), *import_keys(tuple(columns.values())), *values),
+        (
+            DECIMAL,
+            DATES,
+            LEAVE,
+            SPEED_FROM,
+            RADII,
+            TABLE,
+            *only_keys(answers),
+            *import_keys(tuple(columns.values())),
+            *values,
+        ),
     )
 
 
@@ -216,7 +247,8 @@ def _values(rule: Column, header: str, sheet: Sheet, unit: str | None) -> np.nda
 
     # Bounds hold in the unit of the case, after the conversion.
     written = rule if rule.dtype == "name" else Column(header, optional_cells=rule.optional_cells)
-    values = written.parse_all(cells)
+    known = isinstance(cells, NumberColumn) and written.dtype == "number" and bool(np.isfinite(cells.values).all())
+    values = cells.values if isinstance(cells, NumberColumn) and known else written.parse_all(cells)
     if values is None:
         values = np.array([written.parse(cell, place(row)) for row, cell in enumerate(cells)])
     if rule.dtype == "name":

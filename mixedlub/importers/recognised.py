@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
 from mixedlub.importers.answer_keys import COLUMNS
 from mixedlub.importers.base import Answers
+from mixedlub.importers.cell_columns import Cells
 from mixedlub.importers.kinematic import VISCOSITY
 from mixedlub.importers.likeness import likely_headers, likeness_of_reading
-from mixedlub.importers.text_table import Cells
 from mixedlub.kinds import NATIVE
 from mixedlub.kinds import kind as kind_of
 from mixedlub.schema.findings import listed
@@ -24,15 +24,18 @@ LARGEST_LOGARITHM = 15.0
 HEADERS_SHOWN = 8
 
 
+def holds_reading(cells: Cells, readings: Iterable[str]) -> bool:
+    """Whether a column may be one of the readings."""
+    return any(likeness_of_reading(q, cells, likely_headers([q], cells).get(q)) for q in readings)
+
+
 def refuse_unrecognised(cells: Cells, name: str, answers: Answers) -> None:
     """Raise an error if no column may be the reading of any kind, unless an answer names a reading."""
     readings: dict[str, list[str]] = {}
     for kind in NATIVE:
         for quantity in kind_of(kind).quantities:
             readings.setdefault(quantity, []).append(kind)
-    if any(COLUMNS + quantity in answers for quantity in readings):
-        return
-    if any(likeness_of_reading(q, cells, likely_headers([q], cells).get(q)) for q in readings):
+    if any(COLUMNS + quantity in answers for quantity in readings) or holds_reading(cells, readings):
         return
     taken = ", ".join(f"{quantity} ({', '.join(kinds)})" for quantity, kinds in readings.items())
     rule = f"nothing here is recognised as a reading ({listed(list(cells), HEADERS_SHOWN)}); import takes {taken}. If "

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from mixedlub.importers.text_table import Cells, values_of
+from mixedlub.importers.cell_columns import Cells, values_of
 from mixedlub.schema.units import change_to, split, words_of
 from profiles.errors import InputError
 

@@ -6,16 +6,17 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from mixedlub.importers.base import Answers
+from mixedlub.importers.cell_columns import Cells, TextColumn, missing_rows, taken
 from mixedlub.importers.decimals import Line, common_length, is_written_number, with_points
 from mixedlub.importers.header import header_of
 from mixedlub.importers.odd_rows import cleared, count, places, without_repeated_headers, without_summaries
-from mixedlub.schema.cells import are_numbers, csv_rows, is_missing, is_number
+from mixedlub.schema.cells import csv_rows, is_missing, is_number
+from mixedlub.schema.findings import listed
 from mixedlub.schema.table import LARGEST
 from mixedlub.schema.units import words_of
 from profiles.errors import InputError, nearest
@@ -91,27 +92,14 @@ def _tally(row: Sequence[str]) -> tuple[bool, bool]:
     return most, most and numbers == filled
 
 
+TABLE = "import.table"
+"""Key of the number of the table to read, where a text has several."""
 ONLY = "import.only."
 """Prefix of a header in the answer with the value, or list of values, of the rows to keep."""
 VALUES_LISTED = 20
 """Most values of a column listed in an error."""
-Cells = Mapping[str, Sequence[str]]
 NUMBERS_SHOWN = 3
 """Most numbers of a header listed in an error."""
-
-
-class TextColumn(list[str]):
-    """Immutable cells of a column; whether they are numbers is determined once."""
-
-    @cached_property
-    def numeric(self) -> bool:
-        """Whether every filled cell is a number."""
-        return are_numbers(self)
-
-    @cached_property
-    def values(self) -> np.ndarray:
-        """Numbers in the cells; nan for other cells."""
-        return np.array([float(cell) if is_number(cell) else np.nan for cell in self])
 
 
 @dataclass(frozen=True)
@@ -119,7 +107,8 @@ class Sheet:
     """Cells of a table by header, line of each row, lines outside the table, and notes.
 
     ``repeated``: text on repeated headers; ``summaries``: text on omitted rows of means or sums; ``faults``: cells with
-    a spreadsheet error or an infinite number, by header and line, which are empty in ``cells``.
+    a spreadsheet error or an infinite number, by header and line, which are empty in ``cells``. ``tables``: lines and
+    first headers of every table of a text with several.
     """
 
     name: str
@@ -130,13 +119,16 @@ class Sheet:
     repeated: str = ""
     summaries: str = ""
     faults: Mapping[str, Mapping[int, str]] = field(default_factory=dict)
+    tables: tuple[str, ...] = ()
 
 
-def read_sheet(text: str, name: str, decimal: str | None = None, separator: str = "") -> Sheet:
+def read_sheet(
+    text: str, name: str, decimal: str | None = None, separator: str = "", number: int | None = None
+) -> Sheet:
     """Longest table of a text: rows of equal length under a header without numbers.
 
     Lines before and after the table are left out; a row of another length within it is an error. ``decimal``: decimal
-    mark from an answer; ``separator``: separator of cells, if known.
+    mark from an answer; ``separator``: separator of cells, if known; ``number``: of several tables, from 1.
     """
     numbered = [
         (number, line)
@@ -148,20 +140,25 @@ def read_sheet(text: str, name: str, decimal: str | None = None, separator: str 
     if len(rows) < 2:
         raise InputError("needs a header line and at least one row", where=name)
     rows, notes = with_points(rows, name, decimal)
-    first, last = _table_rows(rows, name)
-    header, n_lines = header_of([row for _, row in rows[:first]])
+    tables = [(i, end) for i, end in _tables(rows) if end - i > 1 and all(_numbers(row) > 1 for _, row in rows[i:end])]
+    if number is not None and not 1 <= number <= max(len(tables), 1):
+        raise InputError(f"must be a table of {name}, from 1 to {max(len(tables), 1)}", where=TABLE, value=number)
+    before, after = (0, len(rows)) if len(tables) < 2 else _surroundings(tables, number, len(rows))
+    first, last = (before + row for row in _table_rows(rows[before:after], name))
+    header, n_lines = header_of([row for _, row in rows[before:first]])
     above = first - n_lines
     table, summaries = without_summaries(rows[first:last])
     lines = tuple(number for number, _ in table)
     cells = {h: TextColumn(row[i] for _, row in table) for i, h in enumerate(header) if h}
     faults = {h: found for h, column in cells.items() if (found := cleared(column, lines))}
     parts = [part for part in (_range(rows[:above]), _range(rows[last:])) if part]
-    return Sheet(name, cells, lines, " and ".join(parts), tuple(notes), repeated, summaries, faults)
+    described = tuple(_described(rows, *one) for one in tables) if len(tables) > 1 else ()
+    return Sheet(name, cells, lines, " and ".join(parts), tuple(notes), repeated, summaries, faults, described)
 
 
 def complete_rows(sheet: Sheet, needed: Sequence[str]) -> tuple[Sheet, list[str]]:
     """Rows without missing cells in the needed columns, and a note for every column that loses rows."""
-    missing = {h: [i for i, cell in enumerate(sheet.cells[h]) if is_missing(cell)] for h in needed}
+    missing = {h: missing_rows(sheet.cells[h]) for h in needed}
     if not any(missing.values()):
         return sheet, []
     incomplete = {i for rows in missing.values() for i in rows}
@@ -170,7 +167,7 @@ def complete_rows(sheet: Sheet, needed: Sequence[str]) -> tuple[Sheet, list[str]
         rule = f"no row is complete: {most!r} is missing in {len(missing[most])} of them"
         raise InputError(rule + _faults_of(sheet, most), where=sheet.name)
     complete = [i for i in range(len(sheet.lines)) if i not in incomplete]
-    cells = {h: TextColumn(values[i] for i in complete) for h, values in sheet.cells.items()}
+    cells = {h: taken(values, complete) for h, values in sheet.cells.items()}
     notes = [
         f"{count(len(rows), 'row')} left out, as {h!r} is missing: {places([sheet.lines[i] for i in rows])}"
         + _faults_of(sheet, h)
@@ -189,16 +186,6 @@ def _faults_of(sheet: Sheet, header: str) -> str:
             "are calculated"
         )
     return f"; there is {', '.join(map(repr, texts[:NUMBERS_SHOWN]))} in its place" if texts else ""
-
-
-def is_numeric(cells: Sequence[str]) -> bool:
-    """Whether a column holds only numbers and empty cells."""
-    return cells.numeric if isinstance(cells, TextColumn) else are_numbers(cells)
-
-
-def values_of(cells: Sequence[str]) -> np.ndarray:
-    """Numbers in cells; nan for other cells."""
-    return (cells if isinstance(cells, TextColumn) else TextColumn(cells)).values
 
 
 def only_keys(answers: Answers) -> tuple[str, ...]:
@@ -223,7 +210,7 @@ def selected_rows(sheet: Sheet, answers: Answers) -> tuple[Sheet, list[str]]:
             raise InputError(f"is in no row; the column has {listed}", where=key, value=value)
         names = ", ".join(map(str, wanted))
         notes.append(f"{len(rows)} of {len(sheet.lines)} rows kept, those with {header} {names}")
-        cells = {h: TextColumn(values[i] for i in rows) for h, values in sheet.cells.items()}
+        cells = {h: taken(values, rows) for h, values in sheet.cells.items()}
         sheet = replace(sheet, cells=cells, lines=tuple(sheet.lines[i] for i in rows))
     return sheet, notes
 
@@ -251,26 +238,38 @@ def not_above_zero(quantity: str, values: Iterable[float], lines: Iterable[int])
     return [note] if at_lines else []
 
 
-def _table_rows(rows: Sequence[Line], name: str) -> tuple[int, int]:
-    """First and end row of the data: the longest run of rows of the same length as the header above."""
-    best = (0, 0)
+def _tables(rows: Sequence[Line]) -> list[tuple[int, int]]:
+    """First and end row of each table: rows of numbers of the same length as the header above."""
     numbers = [_numbers(row) for _, row in rows]
     words = [not n and sum(map(bool, row)) > 1 for n, (_, row) in zip(numbers, rows, strict=True)]
-    end = len(rows)
+    found, end = [], len(rows)
     for i in range(len(rows) - 1, 0, -1):
         # Here ``end`` is where rows of this length end, if they reach back to this one.
-        if words[i] and not all(map(is_missing, rows[i][1])):
+        if (words[i] and not all(map(is_missing, rows[i][1]))) or len(rows[i][1]) != len(rows[i - 1][1]):
             end = i
-            continue
-        if len(rows[i][1]) != len(rows[i - 1][1]):
-            end = i
-            continue
-        if words[i - 1] and numbers[i] and end - i >= best[1] - best[0]:
-            best = (i, end)
-    if not best[1]:
+        elif words[i - 1] and numbers[i]:
+            found.append((i, end))
+    return found[::-1]
+
+
+def _surroundings(tables: Sequence[tuple[int, int]], number: int | None, rows: int) -> tuple[int, int]:
+    """Rows of the chosen table, or the longest, with the lines around it that belong to no other table."""
+    place = max(range(len(tables)), key=lambda i: tables[i][1] - tables[i][0]) if number is None else number - 1
+    before = tables[place - 1][1] if place else 0
+    return before, tables[place + 1][0] - 1 if place + 1 < len(tables) else rows
+
+
+def _described(rows: Sequence[Line], first: int, end: int) -> str:
+    header, _ = header_of([row for _, row in rows[max(first - 2, 0) : first]])
+    return f"{_range(rows[first:end])}: {listed([h for h in header if h], VALUES_LISTED // 4)}"
+
+
+def _table_rows(rows: Sequence[Line], name: str) -> tuple[int, int]:
+    """First and end row of the longest table."""
+    first, last = max(_tables(rows), key=lambda one: one[1] - one[0], default=(0, 0))
+    if not first:
         _refuse_numbers_above(rows, name)
-        best = (1, len(rows))
-    first, last = best
+        first, last = 1, len(rows)
     width = len(rows[first - 1][1])
     _refuse_other_rows(rows[: first - 1], rows[last:], width, name)
     for number, row in rows[first:last]:
@@ -324,6 +323,8 @@ def _range(rows: Sequence[Line]) -> str:
 
 RUN_KEY = "import.columns.run"
 RUN_WORDS = ("run", "run number", "run no", "run nr", "test no", "versuch nr", "lfd. nr", "lfd.nr", "nr", "no", "#")
+WORD_BEFORE_NUMBER = re.compile(r"[^\W\d_][^\d]*(?=\d)")
+"""Word before a run number, as in T-017."""
 ANEW = "so readings are renumbered from 1"
 
 
@@ -339,10 +340,12 @@ def header_of_runs(sheet: Sheet, answers: Answers) -> str | None:
 
 
 def runs_of(sheet: Sheet, header: str) -> tuple[np.ndarray | None, str | None]:
-    """Run numbers if whole and unique; else None and the reason."""
+    """Run numbers if whole and unique, behind the same word or none; else None and the reason."""
     line_of: dict[int, int] = {}
+    word = WORD_BEFORE_NUMBER.match(sheet.cells[header][0])
+    before = word[0] if word is not None and all(cell.startswith(word[0]) for cell in sheet.cells[header]) else ""
     for line, cell in zip(sheet.lines, sheet.cells[header], strict=True):
-        number = _whole(cell)
+        number = _whole(cell[len(before) :])
         if number is None:
             return None, f"{sheet.name}: line {line}, {header}: {cell!r} is no whole number, {ANEW}"
         if number in line_of:

@@ -10,9 +10,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mixedlub.importers.base import Answers, Question, read_note
+from mixedlub.importers.cell_columns import Cells, is_numeric
 from mixedlub.importers.header import COUNTED
 from mixedlub.importers.odd_rows import places
-from mixedlub.importers.text_table import Cells, Sheet, is_numeric
+from mixedlub.importers.text_table import Sheet
 from mixedlub.importers.vocabulary import BY_NAME, Target, family
 from mixedlub.schema.dates import ORDERS, moments, resolution
 from mixedlub.schema.findings import Finding, finding

@@ -10,8 +10,9 @@ import numpy as np
 
 from mixedlub.importers.answer_keys import COLUMNS, UNIT_KEYS, VALUES
 from mixedlub.importers.base import Answers, read_note
+from mixedlub.importers.cell_columns import Cells, TextColumn, is_numeric, values_of
 from mixedlub.importers.likeness import likely_headers, likely_spread, spare_notes, spread_of
-from mixedlub.importers.text_table import Cells, Sheet, TextColumn, is_numeric, values_of
+from mixedlub.importers.text_table import Sheet
 from mixedlub.importers.vocabulary import BY_NAME, convert, target_of
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.units import change_to, split, words_of

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import numpy as np
 
 from mixedlub.case.import_file import NAME
 from mixedlub.data_checks.case_check import refuse_unreadable
-from mixedlub.importers import labview, pcs, plain, trios
+from mixedlub.importers import plain
 from mixedlub.importers.attachments import is_share, with_attachments, with_share
 from mixedlub.importers.base import (
     EVERY,
@@ -27,13 +27,13 @@ from mixedlub.importers.base import (
     refuse_wrong,
 )
 from mixedlub.importers.case_writer import findings_toml, write_case
-from mixedlub.importers.dialogue import Ask, Say, ask_for, parse_setting
+from mixedlub.importers.dialogue import Ask, Say, ask_all, is_likely, likely_answer, parse_setting
 from mixedlub.importers.input_file import InputFile, open_file
 from mixedlub.importers.missing_inputs import gap_lines, gaps, undescribed
 from mixedlub.importers.text_table import joined_runs
 from mixedlub.importers.time_base import TIME, joined_times
 from mixedlub.schema import system_file, toml_file
-from mixedlub.schema.discovery import offered
+from mixedlub.schema.discovery import loaded
 from mixedlub.schema.findings import Finding, Severity, finding, of_severity, report
 from profiles.errors import InputError, nearest
 
@@ -45,8 +45,6 @@ NAMES_SHOWN = 4
 Step = Callable[[str], None]
 """Callback at the start of a task with its name, and at the end with an empty text."""
 
-READERS: tuple[ModuleType, ...] = (pcs, trios, labview, plain)
-"""Readers in order of trial, after readers of other packages (``mixedlub.importers``); any text is a plain table."""
 STEPS = ("reading files", "reading tables", "writing the case", "checking the case")
 
 SCHEMA = "mixedlub-case/1"
@@ -87,7 +85,9 @@ def read(files: Sequence[InputFile], answers: Answers) -> Draft:
 
 
 def _read_one(file: InputFile, answers: Answers) -> Draft:
-    reader = next(r for r in (*offered("mixedlub.importers"), *READERS) if r.matches(file.text))
+    # Readers of other packages come first; what none takes is read as a plain table.
+    readers = [] if file.measured else reversed(loaded("mixedlub.importers.instruments", "mixedlub.importers"))
+    reader = next((one for one in readers if one.matches(file.text)), plain)
     draft: Draft = reader.draft(file, answers)
     return draft
 
@@ -99,7 +99,7 @@ def import_files(files: Sequence[Path], out: Path, *, overwrite: bool = False, *
     unless ``overwrite`` is true.
     """
     opened, given = _opened(files, flat(answers))
-    draft = read(opened, given)
+    draft = whole_round(opened, given)
     missing = open_questions(draft, given)
     if missing:
         raise Unanswered(missing)
@@ -131,7 +131,7 @@ def run(
     if ask is not None and not overwrite and (out / "system.toml").exists():
         say(f"{out} is a case already; it is kept where it differs (--overwrite replaces it)")
     step(STEPS[1])
-    draft = read(opened, answers)
+    draft = whole_round(opened, answers)
     step("")
     if ask is not None:
         answers, draft = _with_replies(opened, answers, draft, ask, say)
@@ -173,46 +173,71 @@ def _opened(files: Sequence[Path], answers: Answers) -> tuple[list[InputFile], d
     opened = [(path, open_file(path, answers)) for path in files]
     shares = [path for path, file in opened if is_share(file.text)]
     if SHEET in answers and not any(file.is_workbook for _, file in opened):
-        raise InputError("none of the files is a workbook (.xlsx)", where=SHEET, value=answers[SHEET])
+        raise InputError(
+            "none of the files has several tables (.xlsx, .tdms, .mat, .mf4)", where=SHEET, value=answers[SHEET]
+        )
     return [file for path, file in opened if path not in shares], with_share(answers, shares)
+
+
+def whole_round(files: Sequence[InputFile], answers: Answers) -> Draft:
+    """Draft with the questions that follow from the proposed answers too, so that all are asked at once."""
+    draft = read(files, answers)
+    questions = {q.key: q for q in draft.questions}
+    supposed = dict(answers)
+    while fresh := {q.key: likely_answer(q) for q in questions.values() if q.key not in supposed and is_likely(q)}:
+        supposed |= fresh
+        try:
+            further = read(files, supposed).questions
+        except InputError:
+            # A proposal that does not hold with the others is for the user to change.
+            break
+        questions = {**{q.key: q for q in further}, **questions}
+    return replace(draft, questions=tuple(questions.values()))
 
 
 def _with_replies(
     files: Sequence[InputFile], answers: dict[str, Any], draft: Draft, ask: Ask, say: Say
 ) -> tuple[dict[str, Any], Draft]:
-    """Answers and draft after every question was asked once, needed questions first."""
+    """Answers and draft after all questions were asked together; a question with a refused answer is asked again."""
     asked: set[str] = set()
+    refused: dict[str, Mapping[str, Any]] = {}
     while waiting := [q for q in draft.questions if q.key not in answers and q.key not in asked]:
-        question = next((q for q in waiting if q.needed), waiting[0])
-        asked.add(question.key)
-        answers, draft = _answered(files, answers, draft, question, ask, say)
+        ordered = sorted(waiting, key=lambda q: not q.needed)
+        replies = ask_all(ordered, ask, say)
+        asked |= {q.key for q in ordered}
+        every = {**answers, **{key: value for reply in replies.values() for key, value in reply.items()}}
+        try:
+            answers, draft = every, _accepted(files, answers, every)
+        except InputError:
+            for question in (q for q in ordered if q.key in replies):
+                try:
+                    extended = {**answers, **replies[question.key]}
+                    answers, draft = extended, _accepted(files, answers, extended)
+                except InputError as error:
+                    _say_refused(error, question, replies[question.key], refused, say)
+                    asked.discard(question.key)
     return answers, draft
 
 
-def _answered(
-    files: Sequence[InputFile], answers: dict[str, Any], draft: Draft, question: Question, ask: Ask, say: Say
-) -> tuple[dict[str, Any], Draft]:
-    """Answers and draft after a question, which repeats after a wrong answer; unchanged if it is left open."""
-    refused: dict[str, Mapping[str, Any]] = {}
-    while True:
-        reply = ask_for(question, ask, say)
-        if reply is None:
-            return answers, draft
-        extended = {**answers, **reply}
-        try:
-            for key, value in reply.items():
-                refuse_wrong(key, value)
-            return extended, read(files, extended)
-        except InputError as error:
-            # An error that another answer does not change is one of the file.
-            if refused.get(str(error), reply) != reply:
-                raise
-            if not question.key.startswith("import.") and error.where != question.key:
-                raise
-            refused[str(error)] = reply
-            say(str(error))
-            if question.one_value and question.key in reply:
-                say(f"if all rows have the same value, reply ={reply[question.key]}")
+def _accepted(files: Sequence[InputFile], answers: Answers, extended: Answers) -> Draft:
+    """Draft with more answers, which are valid."""
+    for key in extended.keys() - answers.keys():
+        refuse_wrong(key, extended[key])
+    return whole_round(files, extended)
+
+
+def _say_refused(
+    error: InputError, question: Question, reply: Answers, refused: dict[str, Mapping[str, Any]], say: Say
+) -> None:
+    """Say why an answer is refused; raise an error of the file, which no answer changes."""
+    if refused.get(str(error), reply) != reply:
+        raise error
+    if not question.key.startswith("import.") and error.where != question.key:
+        raise error
+    refused[str(error)] = reply
+    say(str(error))
+    if question.one_value and question.key in reply:
+        say(f"if all rows have the same value, reply N=={reply[question.key]}")
 
 
 def _summary(draft: Draft, answers: Answers) -> Iterator[str]:

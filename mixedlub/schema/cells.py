@@ -49,7 +49,7 @@ def with_hyphens(text: str) -> str:
     >>> with_hyphens("\u22120.5;1.2e\u22123;m s\u22121")
     '-0.5;1.2e-3;m s\u22121'
     """
-    return PRINTED_MINUS.sub("-", text)
+    return PRINTED_MINUS.sub("-", text) if "\u2212" in text else text
 
 
 def csv_rows(

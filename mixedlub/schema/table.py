@@ -13,6 +13,7 @@ import numpy as np
 
 from mixedlub.schema.cells import csv_rows, is_missing, with_hyphens
 from mixedlub.schema.findings import Finding, finding, listed, report
+from mixedlub.schema.long_text import LONG, regular_columns
 from mixedlub.schema.ranges import probable_unit
 from mixedlub.schema.units import fits, read_as, split, unit_of, words_of
 from profiles.errors import InputError, nearest, refuse_no_file
@@ -83,6 +84,14 @@ class Column:
                 return np.array([names[cell] for cell in cells])
             values = np.fromiter(map(number_of, cells), float, len(cells))
         except ValueError:
+            return None
+        return self.converted(values)
+
+    def converted(self, values: np.ndarray | Sequence[str]) -> np.ndarray | None:
+        """Numbers in the type of the column, or names; None if one is missing, invalid or of the other sort."""
+        if not isinstance(values, np.ndarray):
+            return self.parse_all(values) if self.dtype == "name" else None
+        if self.dtype == "name":
             return None
         allowed = (values > self.above) & (values >= self.at_least) & (values <= self.at_most) & np.isfinite(values)
         if self.dtype == "whole":
@@ -171,6 +180,9 @@ def read_table(
         raise InputError(f"cannot be read ({error.strerror})", where=where) from None
     if "\0" in text:
         raise InputError(f"is not a text table; {advice}", where=where)
+    long = _long_table(text, columns, key, path.name) if len(text) >= LONG else None
+    if long is not None:
+        return long
     try:
         lines = [
             line
@@ -191,6 +203,24 @@ def read_table(
     text = f"no column {RUN.name}: rows are numbered from {runs[0]} to {runs[-1]}"
     report(finding("runs_numbered", text, path.name))
     return replace(found, columns={RUN.name: runs, **found.columns})
+
+
+def _long_table(text: str, columns: tuple[Column, ...], key: tuple[str, ...], source: str) -> Table | None:
+    """Table of a long text with known and valid columns only; None for the reading row by row."""
+    top, _, body = text.partition("\n")
+    header = [cell.strip() for cell in top.split(",")]
+    known = {c.name: c for c in columns}
+    required = {*key, *(c.name for c in columns if c.required)}
+    if not required <= set(header) <= set(known) or len(set(header)) < len(header):
+        return None
+    cells = regular_columns(body.rstrip("\n"), width=len(header))
+    if cells is None:
+        return None
+    found = {name: known[name].converted(values) for name, values in zip(header, cells, strict=True)}
+    valid = {name: values for name, values in found.items() if values is not None}
+    if len(valid) < len(found) or any(np.unique(valid[name]).size < len(valid[name]) for name in key):
+        return None
+    return Table(valid, source)
 
 
 def span(name: str, values: np.ndarray) -> str:

@@ -190,21 +190,21 @@ def test_a_misspelt_answer_names_the_nearest_key(file, tmp_path):
         import_files([file(EHD)], tmp_path / "case", contact={**BALL, "radii_mm": [1.0, 2.0]})
 
 
-def test_the_wizard_asks_until_it_has_what_it_needs(file, tmp_path):
-    replies = iter(["", "[9.525, inf]", "[207, 75]", "[0.3, 0.22]", "oil A", "", "", "", "0.02", "", ""])
-    asked, said = [], []
-
-    def ask(text):
-        asked.append(text)
-        return next(replies)
-
-    folder = run([file(EHD)], tmp_path / "case", ask=ask, say=said.append)
-    case = read_case(folder)
+def test_all_questions_are_asked_together_and_needed_ones_again(file, tmp_path, at_terminal):
+    replies = {
+        "Radii": ["", "[9.525, inf]"],
+        "Young": ["[207, 75]"],
+        "Poisson": ["[0.3, 0.22]"],
+        "Name of the oil": ["oil A"],
+        "over": ["0.02"],
+    }
+    user = at_terminal(file(EHD), tmp_path / "case", [], replies)
+    case = read_case(tmp_path / "case")
     assert case.system.contact.radius_mm == (9.525, float("inf"))
-    assert case.system.lubricant.name == "oil A"
     assert case.system.recording.noise.relative == 0.02
-    assert any(line.startswith("this is needed") for line in said)
-    assert any("lubricant.temperature_C" in line for line in said)
+    assert len(user.forms) == 1
+    assert "needed: 1" in user.said
+    assert any("lubricant.temperature_C" in line for line in user.said)
 
 
 def test_settings_and_an_answers_file_serve_where_nobody_can_answer(file, tmp_path):

@@ -42,7 +42,7 @@ def test_another_sheet_is_read_where_it_is_named(book, tmp_path):
 def test_a_sheet_that_is_not_there_is_refused(book, file, tmp_path):
     with pytest.raises(InputError, match=r"import\.sheet: 'Dat': no such sheet in t\.xlsx; nearest known: 'Data'"):
         viscosities(book(Data=ROWS), tmp_path, **{"import.sheet": "Dat"})
-    with pytest.raises(InputError, match=r"import\.sheet: 'Data': none of the files is a workbook"):
+    with pytest.raises(InputError, match=r"import\.sheet: 'Data': none of the files has several tables"):
         viscosities(file(TABLE), tmp_path, **{"import.sheet": "Data"})
 
 

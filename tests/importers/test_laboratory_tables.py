@@ -9,7 +9,7 @@ from mixedlub.importers.base import Unanswered
 from mixedlub.importers.input_file import InputFile
 from mixedlub.importers.plain import draft
 from mixedlub.importers.text_table import read_sheet
-from mixedlub.importers.wizard import read, run
+from mixedlub.importers.wizard import read
 from mixedlub.schema.findings import codes
 from mixedlub.schema.units import split
 from profiles.errors import InputError
@@ -211,14 +211,8 @@ def test_labview_measurements_without_a_column_of_times_have_them_by_the_clock(t
     assert np.allclose(found.columns["time_s"], [0.0, 0.1, 0.2])
 
 
-def test_the_question_on_a_dropped_column_may_be_answered_at_a_terminal(tmp_path):
+def test_the_question_on_a_dropped_column_may_be_answered_at_a_terminal(tmp_path, at_terminal):
     (tmp_path / "t.csv").write_text(table("Temperature (°C),p,Viscosity (mPa s)", PRESSED))
-    asked = []
-
-    def answer(question):
-        asked.append(question)
-        return "p" if "'p' would be left out" in question else ""
-
-    case = run([tmp_path / "t.csv"], tmp_path / "case", ["kind=viscosity"], ask=answer, say=lambda line: None)
-    assert any("'p' would be left out" in question for question in asked)
-    assert len(read_case(case).recordings) == len(PRESSED)
+    user = at_terminal(tmp_path / "t.csv", tmp_path / "case", ["kind=viscosity"], {"'p' would be left out": ["p"]})
+    assert len(user.forms) == 1
+    assert len(read_case(tmp_path / "case").recordings) == len(PRESSED)

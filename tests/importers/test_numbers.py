@@ -55,6 +55,12 @@ def test_run_numbers_are_kept(file, tmp_path):
     assert table["run"].tolist() == [17, 4, 99]
 
 
+def test_run_numbers_behind_the_same_word_are_kept(file, tmp_path):
+    text = "Run,temperature_C,viscosity_mPa_s\nT-017,40,30\nT-004,60,12\nT-099,100,5\n"
+    table = read_case(import_files([file(text)], tmp_path / "case", kind="viscosity")).recordings
+    assert table["run"].tolist() == [17, 4, 99]
+
+
 def test_a_column_under_another_word_is_told(file, tmp_path):
     text = "Point,temperature_C,viscosity_mPa_s\n17,40,30\n4,60,12\n"
     told = {"kind": "viscosity", "import.columns.run": "Point"}

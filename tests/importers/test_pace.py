@@ -7,7 +7,6 @@ from mixedlub.importers import import_files
 from mixedlub.importers.input_file import InputFile
 from mixedlub.importers.likeness import likely_kind
 from mixedlub.importers.plain import draft
-from mixedlub.importers.wizard import run
 from mixedlub.schema.units import split
 from profiles.errors import InputError
 
@@ -105,10 +104,9 @@ def test_a_clock_is_no_time_beside_a_count():
     assert clock.columns["time_s"].tolist() == [5.0, 10.0, 15.0]
 
 
-def test_the_wizard_offers_the_recorded_time_first(file, tmp_path):
+def test_the_recorded_time_is_the_first_choice(file, tmp_path, at_terminal):
     settings = [f"{key}={value}" for key, value in HISTORY.items()]
-    replies = iter(["", "1"])
-    run([file(beside("t [s]"))], tmp_path / "case", settings, ask=lambda q: next(replies, ""), say=lambda s: None)
+    at_terminal(file(beside("t [s]")), tmp_path / "case", settings, {"holds time_s": ["@a"]})
     assert read_case(tmp_path / "case").recordings["time_s"].tolist() == [7.0, 8.0, 9.0]
 
 
@@ -140,15 +138,9 @@ def test_the_case_that_is_written_is_in_seconds(file, tmp_path):
     assert table["time_s"].tolist() == [5.0, 10.0, 20.0]
 
 
-def test_the_wizard_asks_for_the_pace(file, tmp_path):
-    said = []
+def test_the_pace_is_asked_with_the_other_questions(file, tmp_path, at_terminal):
     settings = [f"{key}={value}" for key, value in HISTORY.items()]
-    run(
-        [file(history("Distance (m)"))],
-        tmp_path / "case",
-        settings,
-        ask=lambda q: "0.1" * ("m/s" in q),
-        say=said.append,
-    )
-    assert "t.csv: time_s is 'Distance (m)' over 0.1 m/s" in said
+    user = at_terminal(file(history("Distance (m)")), tmp_path / "case", settings, {"in m/s": ["0.1"]})
+    assert "t.csv: time_s is 'Distance (m)' over 0.1 m/s" in user.said
+    assert len(user.forms) == 1
     assert read_case(tmp_path / "case").recordings["time_s"].tolist() == [100.0, 200.0, 400.0]

@@ -125,10 +125,54 @@ def test_lines_of_remarks_with_as_many_cells_are_no_header():
     assert list(read_sheet(text, "t.csv").cells) == ["Speed (rpm)", "Friction torque (N m)"]
 
 
-def test_two_tables_in_a_file_are_refused():
-    text = "a,b\n1,2\n3,4\nc,d\n1,2\n3,4\n5,6\n"
-    with pytest.raises(InputError, match=r"lines 2 to 3: holds other rows of numbers before its longest table"):
-        read_sheet(text, "t.csv")
+TWO_TABLES = "a,b\n1,2\n3,4\nc,d\n1,2\n3,4\n5,6\n"
+
+
+@pytest.mark.parametrize(
+    ("number", "headers", "lines"), [(None, "cd", (5, 6, 7)), (1, "ab", (2, 3)), (2, "cd", (5, 6, 7))]
+)
+def test_of_two_tables_in_a_file_the_longest_or_the_numbered_one_is_read(number, headers, lines):
+    found = read_sheet(TWO_TABLES, "t.csv", number=number)
+    assert (list(found.cells), found.lines) == (list(headers), lines)
+    assert found.tables == ("lines 2 to 3: a, b", "lines 5 to 7: c, d")
+
+
+def test_a_number_beyond_the_tables_is_refused():
+    with pytest.raises(InputError, match=r"import\.table: 3: must be a table of t\.csv, from 1 to 2"):
+        read_sheet(TWO_TABLES, "t.csv", number=3)
+
+
+def test_a_single_row_beside_a_table_is_refused():
+    with pytest.raises(InputError, match="begins another table"):
+        read_sheet("a,b\n1,2\n3,4\nc,d\n1,2\n", "t.csv")
+
+
+CALIBRATED = """Sample;12
+Point;Force (N);Signal (mV)
+1;10;1.02
+2;20;2.03
+3;30;3.01
+4;40;4.02
+
+Time (s);Friction coefficient (-)
+0;0.11
+1;0.12
+2;0.13
+"""
+
+
+def test_of_two_tables_the_one_with_a_reading_is_read_and_the_other_named():
+    found = draft(InputFile("t.csv", CALIBRATED), {"kind": "friction_history"})
+    assert found.columns["friction_coefficient"].tolist() == [0.11, 0.12, 0.13]
+    assert any("not 1 (lines 3 to 6: Point, Force (N), Signal (mV))" in note.text for note in found.notes)
+
+
+def test_two_tables_with_readings_are_a_question():
+    text = CALIBRATED.replace("Force (N);Signal (mV)", "Load (N);COF (-)")
+    (question,) = (q for q in draft(InputFile("t.csv", text), {}).questions if q.key == "import.table")
+    assert (question.needed, question.example) == (True, "1")
+    told = {"kind": "friction_history", "import.table": 2}
+    assert draft(InputFile("t.csv", text), told).columns["friction_coefficient"].size == 3
 
 
 def test_a_header_in_quotes_over_lines_without_rows_is_refused():

@@ -6,7 +6,6 @@ from mixedlub.case.folder import read_case
 from mixedlub.importers import import_files
 from mixedlub.importers.input_file import InputFile
 from mixedlub.importers.plain import draft
-from mixedlub.importers.wizard import run
 from mixedlub.schema.findings import FindingWarning, Severity
 
 FALLING_BODY = """# falling-body viscometer
@@ -42,19 +41,13 @@ def test_a_pressure_that_is_not_taken_is_warned_of_with_the_setting_that_takes_i
 
 
 @pytest.mark.parametrize(("reply", "taken"), [('"p (bar)"', True), ("", False)])
-def test_the_wizard_asks_whether_to_take_it(path, tmp_path, reply, taken):
-    asked = []
-
-    def ask(text):
-        asked.append(text)
-        return reply if "pressure_MPa" in text else ""
-
-    said = []
-    run([path], tmp_path / "case", [f"{k}={v}" for k, v in TOLD.items()], ask=ask, say=said.append)
-    (question,) = (text for text in asked if "pressure_MPa" in text)
-    assert 'for example "p (bar)"; Enter leaves it open' in question
+def test_the_wizard_asks_whether_to_take_it(path, tmp_path, reply, taken, at_terminal):
+    told = [f"{k}={v}" for k, v in TOLD.items()]
+    user = at_terminal(path, tmp_path / "case", told, {"pressure_MPa": [reply]})
+    (question,) = (text for text in user.forms[0].values() if "pressure_MPa" in text)
+    assert 'for example "p (bar)"; may stay open' in question
     assert ("pressure_MPa" in read_case(tmp_path / "case").recordings) == taken
-    assert any("'p (bar)' is not taken" in line for line in said) != taken
+    assert any("'p (bar)' is not taken" in line for line in user.said) != taken
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,7 @@
 """Speeds of two surfaces: neither is taken, or offered, as the speed of both."""
 
+import math
+
 import pytest
 
 from mixedlub.importers.input_file import InputFile
@@ -52,13 +54,22 @@ def test_the_speed_of_one_surface_is_refused_as_the_sliding_speed_unless_the_oth
     ]
 
 
-@pytest.mark.parametrize(("one", "two"), PAIRS)
-def test_the_speed_of_one_surface_is_not_offered(one, two):
-    (question,) = (
-        q for q in draft(InputFile("t.csv", discs(one, two)), DISC).questions if q.key.endswith("entrainment_speed_m_s")
-    )
+@pytest.mark.parametrize(("one", "two"), [pair for pair in PAIRS if pair[0] != "Speed 1"])
+def test_entrainment_is_the_mean_of_both_speeds_and_slip_their_difference_over_it(one, two):
+    found = draft(InputFile("t.csv", discs(one, two)), DISC)
+    assert not any(q.key.endswith(("entrainment_speed_m_s", "slide_roll_ratio")) for q in found.questions)
+    factor = 1e-3 if "mm/s" in one else 1.0
+    means = [0.95 * (2 + i) * factor for i in range(1, 6)]
+    assert found.columns["entrainment_speed_m_s"] == pytest.approx(means, rel=1e-12)
+    ratio = 0.1 / 0.95 if found.columns["slide_roll_ratio"][0] > 0 else -0.1 / 0.95
+    assert found.columns["slide_roll_ratio"] == pytest.approx([ratio] * 5, rel=1e-12)
+
+
+def test_speeds_without_units_are_not_offered():
+    asked = draft(InputFile("t.csv", discs("Speed 1", "Speed 2")), DISC).questions
+    (question,) = (q for q in asked if q.key.endswith("entrainment_speed_m_s"))
     assert question.example == '"HEADER"'
-    assert f"{one}, {two}: speeds of single surfaces, entrainment is the mean, add a column of it" in question.text
+    assert "Speed 1, Speed 2: speeds of single surfaces, entrainment is the mean, add a column of it" in question.text
 
 
 def test_neither_is_offered_as_the_speed_of_a_map():
@@ -91,12 +102,31 @@ def test_a_sum_of_both_speeds_is_halved_and_said(header):
 
 
 @pytest.mark.parametrize("unit", ["U/min", "1/min", "min-1", "min^-1", "rpm"])
-def test_speeds_of_two_turning_discs_are_asked_for_with_the_way_to_the_speeds_of_the_contact(unit):
-    found = draft(InputFile("t.csv", discs(f"n1 [{unit}]", f"n2 [{unit}]")), DISC)
-    asked = {q.key.rpartition(".")[2]: q for q in found.questions}
-    for column in ("entrainment_speed_m_s", "slide_roll_ratio"):
-        assert f"n1 [{unit}], n2 [{unit}]: surface speeds are pi n R/30" in asked[column].text
-        assert not asked[column].offered
+def test_speeds_of_two_turning_discs_need_their_radii_alone(unit):
+    """Both discs of 30 mm at 100 and 90 rpm: 0.314 and 0.283 m/s."""
+    text = discs(f"n1 [{unit}]", f"n2 [{unit}]")
+    asked = {q.key: q for q in draft(InputFile("t.csv", text), DISC).questions if q.needed}
+    assert asked["import.running_radius_mm"].placeholder == "[RADIUS, RADIUS]"
+    assert "surface speeds are pi n R/30" in asked["import.running_radius_mm"].text
+    assert not any("speed_m_s" in key or "slide_roll" in key for key in asked)
+    told = {**DISC, "import.running_radius_mm": [30.0, 40.0]}
+    found = draft(InputFile("t.csv", text), told).columns
+    first, second = math.pi * 3 * 30e-3 / 30, math.pi * 2.7 * 40e-3 / 30
+    assert found["entrainment_speed_m_s"][0] == pytest.approx((first + second) / 2, rel=1e-12)
+    assert found["slide_roll_ratio"] == pytest.approx([2 * (first - second) / (first + second)] * 5, rel=1e-12)
+
+
+def test_radii_of_two_discs_are_their_running_radii_and_opposite_signs_are_said():
+    text = discs("n1 [rpm]", "n2 [rpm]", slower=-0.9)
+    found = draft(InputFile("t.csv", text), {**DISC, "contact.radius_mm": [30.0, 30.0]})
+    assert found.columns["slide_roll_ratio"] == pytest.approx([0.1 / 0.95] * 5, rel=1e-12)
+    assert sum("opposite signs are those of bodies that turn against each other" in n.text for n in found.notes) == 2
+
+
+@pytest.mark.parametrize("radii", [20.0, [20.0], [20.0, -1.0], ["a", "b"]])
+def test_radii_that_are_none_are_refused(radii):
+    with pytest.raises(InputError, match="must be two radii in mm"):
+        draft(InputFile("t.csv", discs("n1 [rpm]", "n2 [rpm]")), {**DISC, "import.running_radius_mm": radii})
 
 
 @pytest.mark.parametrize("name", ["Reibungszahl", "Reibwert", "Reibungskoeffizient", "Haftreibung", "Haftreibungszahl"])

@@ -104,17 +104,10 @@ def test_kinds_are_offered_where_speeds_are_swept(file, tmp_path):
     assert "kind=" not in said_of(file(step(1, "BOD_TIMED", 60.0, np.full(40, 100.0))), tmp_path / "held")
 
 
-def test_the_wizard_asks_for_the_kind_and_what_it_needs(file, tmp_path):
-    replies = {"kind of recording": "friction_map"}
-    asked = []
-
-    def ask(text):
-        asked.append(text)
-        return next((reply for words, reply in replies.items() if words in text), "")
-
-    said_of(file(STRIBECK), tmp_path / "case", ask=ask)
+def test_the_wizard_asks_for_the_kind_and_what_it_needs(file, tmp_path, at_terminal):
+    user = at_terminal(file(STRIBECK), tmp_path / "case", [], {"kind of recording": ["friction_map"]})
     assert read_case(tmp_path / "case").kind.name == "friction_map"
-    assert any("one of disc, friction_map, friction_history" in text for text in asked)
+    assert any("a disc" in line and "b friction_map" in line for line in user.said)
 
 
 def test_of_a_test_with_a_run_in_the_swept_steps_are_taken(file, tmp_path):

@@ -102,6 +102,14 @@ def test_a_source_that_lacks_a_fact_is_refused_with_it(folder, old, new, told):
         recordings(folder)
 
 
+def test_a_hidden_channel_that_is_constant_is_refused(folder):
+    place = next(one for one in recordings(folder) if one.hidden).folder
+    frame = pd.read_csv(place / "recordings.csv").assign(load_N=20.0)
+    frame.to_csv(place / "recordings.csv", index=False)
+    with pytest.raises(InputError, match=r"hidden: 'load_N': does not change in this recording"):
+        cases_of(read_recording(place), 1)
+
+
 def test_a_hidden_channel_and_its_copies_are_gone(folder):
     (hidden,) = of(HIDDEN, cases_of(recordings(folder)[0], 1))
     assert not {"load_N", "weight_kg"} & set(hidden.case.columns)

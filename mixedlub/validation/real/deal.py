@@ -15,7 +15,7 @@ from mixedlub.validation.answers import IDENTIFIABLE
 from mixedlub.validation.case_folder import plain, read_case, write
 from mixedlub.validation.planted import MEASUREMENT
 from mixedlub.validation.real.backgrounds import KINDS, background
-from mixedlub.validation.real.source import Concealed, Recording
+from mixedlub.validation.real.source import SOURCE, Concealed, Recording
 from mixedlub.validation.rig import Case, Form, Rig
 from mixedlub.validation.rivals import Target, rivals, sensitivity, visibility
 from mixedlub.validation.sample_case import solve
@@ -106,6 +106,10 @@ def _truth(
 
 
 def _hidden(recording: Recording, case: Case, one: Concealed) -> Dealt:
+    values = case.columns[one.column]
+    if one.right and all(value == values[0] for value in values):
+        rule = "does not change in this recording, so nothing is concealed with it; leave out the entry, or its 'right'"
+        raise InputError(rule, where=f"{recording.folder / SOURCE}: hidden", value=one.column)
     return Dealt(HIDDEN, recording, _without(case, one), _concealed(recording, one))
 
 
