@@ -14,7 +14,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from profiles import InputError, Profile
-from profiles.image import HeightMap, along_direction
+from profiles.image import along_direction
+from profiles.maps import HeightMap
 from roughness.moments import Moments
 
 SIGMA = math.sqrt(math.log(2.0) / math.pi) / math.sqrt(2.0 * math.pi)

@@ -82,7 +82,7 @@ def command(
     ISO parameters, spectral moments, asperities and Gaussian verdict, with figures.
     """
     from profiles import SHIPPED_MARK, read, shipped
-    from profiles.image import read_map
+    from profiles.maps import read_map
     from profiles.readers.base import HoldsMap
     from roughness import trace_record
     from roughness.areal import trace_across_lay

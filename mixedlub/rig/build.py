@@ -26,7 +26,7 @@ from profiles.errors import InputError
 from profiles.profile import Profile
 
 if TYPE_CHECKING:
-    from profiles.image import HeightMap
+    from profiles.maps import HeightMap
 
 LEAST_NAYAK = 1.5
 """Least m0 m4 / m2^2 of an isotropic Gaussian surface; Nayak 1971."""
@@ -274,7 +274,7 @@ def at_short_cutoff(
 
 def flank_map(name: str, section: surface_file.SurfaceSection, folder: Path) -> HeightMap:
     """Roughness of a height map; default cut-offs are 0.8 mm and 2.5 um as far as they fit."""
-    from profiles.image import read_map
+    from profiles.maps import read_map
     from roughness.areal import areal_roughness
 
     with _of_surface(name):

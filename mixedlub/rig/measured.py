@@ -14,7 +14,7 @@ from profiles.errors import InputError
 from profiles.profile import Profile
 
 if TYPE_CHECKING:
-    from profiles.image import HeightMap
+    from profiles.maps import HeightMap
     from roughness import Moments
 
 LEVEL = 0.9

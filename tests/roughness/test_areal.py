@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from profiles import InputError, Profile
-from profiles.image import HeightMap
+from profiles.maps import HeightMap
 from roughness import moments, primary_profile
 from roughness.areal import areal_moments, areal_roughness, gaussian_scatter, tiles
 from roughness.mccool import plane_offset, summit_density, summit_sigma
