@@ -85,8 +85,8 @@ def command(
     from profiles.maps import read_map
     from profiles.readers.base import HoldsMap
     from roughness import trace_record
-    from roughness.areal import trace_across_lay
     from roughness.guards import overruled
+    from roughness.maps.lay import trace_across_lay
 
     def trace_of(file: Path) -> Profile:
         if str(file).startswith(SHIPPED_MARK):

@@ -43,10 +43,19 @@ class SurfaceSection(Section):
         "files of traces along the lay, beside those across it", None, example=["profiles/along.csv"], alternative=True
     )
     map: str | None = key(
-        "instead of traces: file of an areal height map without holes, x3p or SDF",
+        "instead of traces: file of an areal height map: x3p, SDF, text, and more with mixedlub[formats]",
         None,
         example="profiles/ground.x3p",
         alternative=True,
+    )
+    holes: Literal["mask", "fill"] = key(
+        "points of a map without a height",
+        "mask",
+        example="fill",
+        values={
+            "mask": "left out of the moments; a map with more than a fifth of them is refused",
+            "fill": "closed by a smooth surface from their rims, up to half of the map",
+        },
     )
     m2_along: Number | None = key(
         "variance of the slopes along the lay; m2 is then across it", None, example=0.0002, alternative=True
@@ -67,13 +76,13 @@ class SurfaceSection(Section):
         },
     )
     unit: str | None = key(
-        "unit of a trace of plain numbers, as um or 'mm, um' (place, height); left out: as its file says",
+        "unit of a trace or map of plain numbers, as um or 'mm, um' (place, height); left out: as its file says",
         None,
         example="mm, um",
         alternative=True,
     )
     spacing: str | None = key(
-        "step of a trace, as '0.5 um'; left out: as its file says", None, example="0.5 um", alternative=True
+        "step of a trace or map, as '0.5 um'; left out: as its file says", None, example="0.5 um", alternative=True
     )
     cutoff_mm: Number | None = key("long cut-off of a trace; left out: its own, or by ISO 4288", None, example=0.8)
     short_cutoff_um: Number | None = key(
@@ -116,8 +125,12 @@ class SurfaceSection(Section):
             raise ValueError(f"has both moments and a {measured[0].removesuffix('s')}; give one of them")
         if len(measured) > 1:
             raise ValueError(f"has both {measured[0]} and {measured[1]}; give one of them")
-        if not self.files and (self.unit or self.spacing or self.traces_along) is not None:
-            raise ValueError("unit, spacing and traces_along belong to a profile or traces, which are not given")
+        if not self.files and self.traces_along is not None:
+            raise ValueError("traces along the lay (traces_along) belong to a profile or traces, which are not given")
+        if not self.is_measured and (self.unit or self.spacing) is not None:
+            raise ValueError("unit and spacing belong to a profile, traces or a map, which are not given")
+        if self.map is None and "holes" in self.model_fields_set:
+            raise ValueError("holes belongs to a map, which is not given")
         if self.map is not None and self.model_fields_set & {"edges", "outliers"}:
             raise ValueError("edges and outliers belong to a profile or traces; a map takes neither")
         return self

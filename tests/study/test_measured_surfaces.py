@@ -14,7 +14,8 @@ from profiles import finishes
 from profiles.errors import InputError
 from profiles.read import read
 from roughness import evaluation_profile, height_parameters, moments
-from roughness.areal import areal_moments, areal_roughness
+from roughness.maps.moments import areal_moments
+from roughness.maps.prepare import areal_roughness
 
 STEP = 0.5e-6
 KNOWN = {"m0_um2": 0.1, "m2": 0.0025, "m4_per_um2": 0.0036}
