@@ -25,7 +25,7 @@ from roughness.moments import Moments
 
 SLOPES = ((0.152, 0.4), (0.124, 0.743), (0.076, 0.52))
 """Source. Factor and exponent of the mean slope over Rq (um); Bahrami et al. 2006, table 1."""
-CURVATURE = (0.3, 0.7, 1.6)
+CURVATURE = (0.33, 0.75, 1.7)
 """Measured (test_assumed.py). Lowest, middle and highest m4/m2 (1/um2) of traces after a short cut-off of 2.5 um."""
 RANGE = (0.02e-6, 10e-6)
 """Judgement. Range of Rq (m) in which the assumption is meant: polished to coarsely turned."""
@@ -39,7 +39,7 @@ _WRITTEN = re.compile(r"(R[aqz]):(.*)\Z")
 
 @dataclass(frozen=True)
 class AssumedMoments:
-    """Moments (SI) with changes of their logarithms at the ends of their bands, one axis a doubt, and the assumption."""
+    """Moments (SI), the changes of their logarithms at the ends of their bands by doubt, and the assumption."""
 
     m0: float
     m2: float
@@ -71,7 +71,7 @@ def assumed_moments(name: str, value: float) -> AssumedMoments:
 
     >>> found = assumed_moments("Rq", 0.4e-6)
     >>> round(found.m0 * 1e12, 3), round(found.m2, 4), [round(end, 4) for end in found.ends("m2")]
-    (0.16, 0.0076, [0.0034, 0.0174])
+    (0.16, 0.0072, [0.0015, 0.036])
     """
     if name not in PER_RQ:
         raise InputError("is Ra, Rq or Rz", where="known number", value=name)
@@ -85,7 +85,8 @@ def assumed_moments(name: str, value: float) -> AssumedMoments:
     raised = max(1.0, 1.02 * LEAST_NAYAK * m2**2 / (m0 * m4))
     rough = math.log(high / low)
     exponent = float(np.mean([exponent for _, exponent in SLOPES]))
-    slope = math.log(max(slopes) / min(slopes))
+    # machined surfaces lie as far off the middle as the three correlations lie apart
+    slope = 2.0 * math.log(max(slopes) / min(slopes))
     bent = 0.5 * math.log(CURVATURE[2] / CURVATURE[0])
     axes = (
         {"m0": rough, "m2": exponent * rough, "m4": exponent * rough},

@@ -52,6 +52,8 @@ def comparison_figure(profiles: Sequence[Profile], names: Sequence[str]) -> Figu
     normal.set_yticks(ndtri(np.array(_PERCENT) / 100), [f"{p:g}" for p in _PERCENT])
     normal.set_xlabel("height (µm)")
     normal.set_ylabel("heights below (%)")
+    top = max(line.get_ydata().max() for line in spectrum.get_lines())
+    spectrum.set_ylim(top * 1e-8, top * 3.0)
     spectrum.invert_xaxis()
     spectrum.set_xlabel("wavelength (µm)")
     spectrum.set_ylabel("power density (µm³)")

@@ -131,8 +131,8 @@ def _of_map(areal: Record) -> Iterator[str]:
     yield _entry("volumes", _listed(p, ("Vmp_um", "Vmc_um", "Vvc_um", "Vvv_um")))
     yield _entry(
         "moments",
-        f"m0 {number(m['m0_um2'])} um2, across the lay m2 {number(m['m2'])}, m4 {number(m['m4_per_um2'])} 1/um2, along it "
-        f"m2 {number(m['m2_along'])}, m4 {number(m['m4_along_per_um2'])} 1/um2",
+        f"m0 {number(m['m0_um2'])} um2, across the lay m2 {number(m['m2'])}, m4 {number(m['m4_per_um2'])} 1/um2, "
+        f"along it m2 {number(m['m2_along'])}, m4 {number(m['m4_along_per_um2'])} 1/um2",
     )
 
 

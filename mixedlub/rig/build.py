@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache
 from importlib.resources import files
@@ -27,6 +27,7 @@ from profiles.profile import Profile
 
 if TYPE_CHECKING:
     from profiles.maps import HeightMap
+    from roughness.assumed import AssumedMoments
 
 LEAST_NAYAK = 1.5
 """Least m0 m4 / m2^2 of an isotropic Gaussian surface; Nayak 1971."""
@@ -321,7 +322,13 @@ def _check(name: str, across: Traces) -> None:
 def surface(name: str, section: surface_file.SurfaceSection, found: Measured | None = None) -> Surface:
     """Surface from its moments or from measured traces or map."""
     values: dict[str, float]
-    if found is None:
+    alone = assumed(name, section)
+    if alone is not None:
+        values = {"m0": alone.m0, "m2": alone.m2, "m4": alone.m4}
+        ends = {key: alone.ends(key) for key in ("m2", "m4")}
+        band = f"m2 {_span(ends['m2'])}, m4 {_span([end * 1e-12 for end in ends['m4']])} 1/um2"
+        report(finding("moments_assumed", f"{alone.words}; bands: {band}", f"surfaces.{name}"))
+    elif found is None:
         m0, m2, m4 = section.m0_um2 or 0.0, section.m2 or 0.0, section.m4_per_um2 or 0.0
         values = {"m0": m0 * 1e-12, "m2": m2, "m4": m4 * 1e12}
         if section.m2_along is not None and section.m4_along_per_um2 is not None:
@@ -353,9 +360,23 @@ def surface(name: str, section: surface_file.SurfaceSection, found: Measured | N
     return made
 
 
+def assumed(name: str, section: surface_file.SurfaceSection) -> AssumedMoments | None:
+    """Moments of a surface of which only Ra, Rq or Rz is known; None for any other."""
+    from roughness.assumed import assumed_moments
+
+    if section.one_number is None:
+        return None
+    with _of_surface(name):
+        return assumed_moments(*section.one_number)
+
+
+def _span(ends: Sequence[float]) -> str:
+    return " to ".join(f"{end:.2g}" for end in ends)
+
+
 def check_bandwidth(surface: Surface, section: surface_file.SurfaceSection) -> None:
     """Raise an error for stated moments below Nayak's limit; traces may be sampled coarsely, and are flagged."""
-    if not section.is_measured and surface.bandwidth < LEAST_NAYAK:
+    if not section.is_measured and section.one_number is None and surface.bandwidth < LEAST_NAYAK:
         rule = (
             f"Nayak's m0 m4 / m2^2 is {surface.bandwidth:.3g}, and no isotropic Gaussian surface has less than 1.5; "
             "check the units of m0_um2 and m4_per_um2, and that all three are of one short cut-off"

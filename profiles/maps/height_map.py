@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from profiles.errors import InputError
+from profiles.profile import frozen
 
 MAX_PIXELS = 200_000_000
 
@@ -30,12 +31,11 @@ class HeightMap:
     origin: Mapping[str, object] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        heights = np.array(self.heights, dtype=float)
+        heights = frozen(self.heights, float)
         if heights.ndim != 2 or min(heights.shape) < 2 or heights.size > MAX_PIXELS:
             raise InputError("a height map has rows and columns", where=f"map {self.name!r}", value=heights.shape)
         if not all(math.isfinite(s) and s > 0 for s in (self.spacing_x, self.spacing_y)):
             raise InputError("both spacings must be above zero", where=f"map {self.name!r}")
-        heights.flags.writeable = False
         object.__setattr__(self, "heights", heights)
 
     @property

@@ -15,6 +15,7 @@ from roughness.maps.prepare import areal_roughness
 def trace_across_lay(area: HeightMap) -> Profile:
     """Longest trace through the middle of a map in the direction of its steepest slopes, across its lay.
 
+    >>> import numpy as np
     >>> y, x = np.mgrid[0:40, 0:60]
     >>> trace_across_lay(HeightMap(1e-7 * np.cos(x), 1e-6, 1e-6)).heights.size
     60

@@ -10,7 +10,7 @@ import numpy as np
 
 from profiles.maps import HeightMap
 from roughness.maps.material import areal_ratio_curve, material_parameters
-from roughness.maps.texture import LEVEL, angular_spectrum, areal_autocorrelation, texture_direction
+from roughness.maps.texture import LEVEL, angular_spectrum, areal_autocorrelation, smoothed_spectrum, texture_direction
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -44,6 +44,7 @@ def map_figure(area: HeightMap, traces: Sequence[float] = ()) -> Figure:
         interpolation="nearest",
         aspect="equal",
     )
+    axes.grid(False)
     figure.colorbar(shown, ax=axes, label="height (µm)", extend="both", shrink=0.85)
     for angle, style in zip(traces, ("-", "--")):
         along = _through_middle(area, angle)
@@ -73,6 +74,7 @@ def texture_figure(area: HeightMap) -> Figure:
     part = whole[::thin, ::thin]
     extent = (-reach[0], reach[0], -reach[1], reach[1])
     shown = left.imshow(part, extent=extent, origin="lower", cmap="cividis", vmin=-0.5, vmax=1.0, aspect="equal")
+    left.grid(False)
     left.contour(part, levels=[LEVEL], extent=extent, colors="white", linewidths=0.9)
     figure.colorbar(shown, ax=left, shrink=0.8, label="autocorrelation")
     left.set_title(f"{area.name}: line at {LEVEL:g}", loc="left", fontsize=9)
@@ -80,7 +82,7 @@ def texture_figure(area: HeightMap) -> Figure:
     left.set_ylabel("lag along y (mm)")
     right = figure.add_subplot(1, 2, 2)
     angles, shares = angular_spectrum(area)
-    right.plot(np.degrees(angles), 100.0 * shares, color=_LINE, linewidth=1.2)
+    right.plot(np.degrees(angles), 100.0 * smoothed_spectrum(shares), color=_LINE, linewidth=1.2)
     right.axvline(math.degrees(texture_direction(area)), color=_MARK, linewidth=0.9, linestyle="--")
     right.set_xlim(0.0, 180.0)
     right.set_ylim(bottom=0.0)

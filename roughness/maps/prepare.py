@@ -100,6 +100,8 @@ def areal_roughness(
         heights = heights - _smoothed(heights, area, cutoff)
     applied = {"cutoff": cutoff, "short_cutoff": short_cutoff}
     cutoffs = {**area.cutoffs, **{name: length for name, length in applied.items() if length is not None}}
+    if heights is not area.heights:
+        heights.flags.writeable = False  # spares a copy
     return replace(area, heights=heights, cutoffs=cutoffs)
 
 
