@@ -10,6 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
+import numpy as np
 import typer
 
 from mixedlub.commands.console import note, print_findings
@@ -139,7 +140,7 @@ def command(
         _figures(done),
         tuple(line for record in records for line in summary(record)),
         tuple(text for text in notes if text not in told_already),
-        files={"profile.json": json.dumps(records, indent=1) + "\n"},
+        files={"profile.json": json.dumps(records, indent=1) + "\n", **_cut_traces(done)},
         columns={TABLE: SURFACE_COLUMNS},
     )
     drawings = to.folder / "figures"
@@ -249,6 +250,23 @@ def _stem(file: Path) -> str:
     return bare.stem.rpartition(":")[2] if bare.stem.startswith("shipped:") else bare.stem.replace(":", "_")
 
 
+def _names(done: list[Surface]) -> list[str]:
+    """Names of the results by surface, numbered where they would be alike."""
+    names = [_stem(one.file) for one in done]
+    return [name if names.count(name) == 1 else f"{name}_{number}" for number, name in enumerate(names, start=1)]
+
+
+def _cut_traces(done: list[Surface]) -> dict[str, str]:
+    """Traces of the maps across and along their lay as files that this command and studies read."""
+    files = {}
+    for one, name in zip(done, _names(done)):
+        for which, trace in ({} if one.area is None else one.area.traces).items():
+            rows = np.column_stack((trace.positions * 1e6, np.where(trace.valid, trace.heights * 1e6, np.nan)))
+            lines = (f"{x:.10g},{z:.10g}" for x, z in rows)
+            files[f"{name}_{which}.csv"] = "\n".join(("x_um,z_um", *lines)) + "\n"
+    return files
+
+
 def _figures(done: list[Surface]) -> dict[str, Drawing]:
     from roughness import plots
     from roughness.comparison import comparison_figure
@@ -256,9 +274,8 @@ def _figures(done: list[Surface]) -> dict[str, Drawing]:
     from roughness.record import rules_of_the_file
 
     drawn: dict[str, Drawing] = {}
-    names = [_stem(one.file) for one in done]
-    unique = [name if names.count(name) == 1 else f"{name}_{number}" for number, name in enumerate(names, start=1)]
-    for one, stem in zip(done, unique):
+    names = _names(done)
+    for one, stem in zip(done, names):
         if one.area is not None:
             drawn[f"{stem}_map"] = partial(map_plots.map_figure, one.area.area, one.area.angles)
             drawn[f"{stem}_texture"] = partial(map_plots.texture_figure, one.area.area)
@@ -270,7 +287,7 @@ def _figures(done: list[Surface]) -> dict[str, Drawing]:
         drawn[f"{stem}_probability"] = partial(plots.probability_figure, one.profile)
         drawn[f"{stem}_abbott"] = partial(plots.abbott_figure, one.profile, convention=rule, sections=sections)
         drawn[f"{stem}_spectrum"] = partial(plots.spectrum_figure, one.profile)
-    shown = [(one.profile, stem) for one, stem in zip(done, unique) if one.profile is not None]
+    shown = [(one.profile, stem) for one, stem in zip(done, names) if one.profile is not None]
     if len(shown) > 1:
         profiles, labels = zip(*shown)
         drawn["compared"] = partial(comparison_figure, profiles, labels)

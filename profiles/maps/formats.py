@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import warnings
+from dataclasses import replace
 from importlib.util import find_spec
 
 import numpy as np
@@ -49,12 +50,15 @@ def _read(source: Source, known: Format, name: str) -> HeightMap | Profile:
         from SurfaceTopography.IO import open_topography
 
         with open_topography(io.BytesIO(source.data), format=name) as reader:
-            found = reader.topography(**_sizes(source, reader))
+            told = _sizes(source, reader)
+            found = reader.topography(**told)
             heights = np.ma.filled(np.ma.asarray(found.heights()).astype(float), np.nan)
             own, sizes = found.unit, found.physical_sizes
             positions = found.positions() if found.dim == 1 else None
     unit = known_unit(own or "")
-    units = (unit, unit) if unit else source.unit
+    if told and source.unit is not None:  # the step of the caller is in metres
+        source = replace(source, unit=("m", source.unit[1]))
+    units = ("m" if told else unit, unit) if unit else source.unit
     if units is None:
         rule = f"{known.name} without units of length: give them as unit 'um' or 'mm, um' (place, height)"
         raise InputError(rule, where=source.where, value=own)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -24,7 +25,8 @@ _OF_TRACE = ("steps", "parameters", "moments", "asperities", "gaussian")
 class EvaluatedMap:
     """A map without form and filtered, its row of ``profile.json``, and its trace across the lay, if there is one.
 
-    ``angles``: directions (rad) of the traces across and along the lay.
+    ``angles``: directions (rad) of the traces across and along the lay; ``traces``: both as read, by ``across`` and
+    ``along``.
     """
 
     area: HeightMap
@@ -32,6 +34,7 @@ class EvaluatedMap:
     angles: tuple[float, float]
     trace: Profile | None = None
     profile: Profile | None = None
+    traces: Mapping[str, Profile] = field(default_factory=dict)
 
 
 def evaluated_map(
@@ -79,4 +82,7 @@ def evaluated_map(
         warnings += [f"trace {which} the lay: {text}" for text in row["warnings"]]  # type: ignore[attr-defined]
     own = rows["across"] or dict.fromkeys(_OF_TRACE)
     record = {**own, "areal": areal, "along": rows["along"], "warnings": warnings}
-    return EvaluatedMap(rough, record, (across, across + 0.5 * math.pi), *traces.get("across", (None, None)))
+    angles = across, across + 0.5 * math.pi
+    raw = {which: pair[0] for which, pair in traces.items()}
+    trace, profile = traces.get("across", (None, None))
+    return EvaluatedMap(rough, record, angles, trace, profile, raw)
