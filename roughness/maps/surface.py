@@ -78,9 +78,9 @@ def evaluated_map(
             rows[which] = None
             continue
         traces[which] = trace, profile
-        rows[which] = {name: row[name] for name in _OF_TRACE}
-        warnings += [f"trace {which} the lay: {text}" for text in row["warnings"]]  # type: ignore[attr-defined]
-    own = rows["across"] or dict.fromkeys(_OF_TRACE)
+        rows[which] = row
+    own = {name: (rows["across"] or {}).get(name) for name in _OF_TRACE}
+    warnings += [f"trace across the lay: {text}" for text in (rows["across"] or {}).get("warnings", ())]
     record = {**own, "areal": areal, "along": rows["along"], "warnings": warnings}
     angles = across, across + 0.5 * math.pi
     raw = {which: pair[0] for which, pair in traces.items()}
