@@ -1,4 +1,4 @@
-r"""Moments of a surface of which only Ra, Rq or Rz is known, by a stated assumption with its band.
+r"""Moments of a surface by Ra, Rq or Rz alone: a stated assumption with its band.
 
 Heights are Gaussian. The slope follows the roughness as on machined metal surfaces: three published correlations of the
 mean absolute slope m with the rms roughness (um) are

@@ -361,7 +361,7 @@ def surface(name: str, section: surface_file.SurfaceSection, found: Measured | N
 
 
 def assumed(name: str, section: surface_file.SurfaceSection) -> AssumedMoments | None:
-    """Moments of a surface of which only Ra, Rq or Rz is known; None for any other."""
+    """Moments of a surface by Ra, Rq or Rz alone; None for any other surface."""
     from roughness.assumed import assumed_moments
 
     if section.one_number is None:

@@ -48,8 +48,8 @@ def evaluated_map(
     holes: str = "mask",
     **trace_keys: Any,
 ) -> EvaluatedMap:
-    """A map evaluated: areal parameters under ``areal``, the trace across the lay in the row of a trace, that along the
-    lay under ``along``.
+    """A map evaluated: areal parameters under ``areal``, the trace across the lay in the row of a trace, and the trace
+    along the lay under ``along``.
 
     The traces come from the map as read, with its holes as asked, and pass the filters of a trace. A trace that cannot
     be evaluated leaves the areal parameters, with a warning.
@@ -84,5 +84,5 @@ def evaluated_map(
     record = {**own, "areal": areal, "along": rows["along"], "warnings": warnings}
     angles = across, across + 0.5 * math.pi
     raw = {which: pair[0] for which, pair in traces.items()}
-    trace, profile = traces.get("across", (None, None))
-    return EvaluatedMap(rough, record, angles, trace, profile, raw)
+    cut, evaluated = traces.get("across", (None, None))
+    return EvaluatedMap(rough, record, angles, cut, evaluated, raw)
