@@ -163,7 +163,7 @@ def _smoothed(heights: np.ndarray, area: HeightMap, cutoff: float) -> np.ndarray
     """Heights after the Gaussian low-pass of a cut-off (m), weights normalised over the known points."""
     there = np.isfinite(heights)
     down, across = (gaussian_kernel(cutoff, step) for step in (area.spacing_y, area.spacing_x))
-    summed = _low(np.where(there, heights, 0.0), down, across)
+    summed = _low(heights if there.all() else np.where(there, heights, 0.0), down, across)
     if there.all():
         ones = [np.convolve(np.ones(n), k, "full")[k.size // 2 :][:n] for n, k in zip(heights.shape, (down, across))]
         summed /= ones[0][:, None]
