@@ -4,79 +4,14 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from profiles.errors import InputError
+from profiles.maps.height_map import HeightMap
 from profiles.profile import Profile
-from profiles.readers.archive import MAX_UNPACKED, check_archive, members
-from profiles.readers.base import MAX_POINTS, Source, foreign_parser
-from profiles.readers.foreign import foreign
-
-MAX_PIXELS = 200_000_000
-
-
-@dataclass(frozen=True, eq=False)
-class HeightMap:
-    """Heights (m) on a grid, rows along y and columns along x, with their two spacings (m); nan where missing.
-
-    ``cutoffs``: wavelengths of the applied filters (m), by the names of a profile.
-    """
-
-    heights: np.ndarray
-    spacing_x: float
-    spacing_y: float
-    name: str = "map"
-    cutoffs: Mapping[str, float] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        heights = np.array(self.heights, dtype=float)
-        if heights.ndim != 2 or min(heights.shape) < 2 or heights.size > MAX_PIXELS:
-            raise InputError("a height map has rows and columns", where=f"map {self.name!r}", value=heights.shape)
-        if not all(math.isfinite(s) and s > 0 for s in (self.spacing_x, self.spacing_y)):
-            raise InputError("both spacings must be above zero", where=f"map {self.name!r}")
-        heights.flags.writeable = False
-        object.__setattr__(self, "heights", heights)
-
-    @property
-    def size(self) -> tuple[float, float]:
-        """Width and depth from the first point to the last (m)."""
-        rows, columns = self.heights.shape
-        return (columns - 1) * self.spacing_x, (rows - 1) * self.spacing_y
-
-
-def read_map(path: str | os.PathLike[str]) -> HeightMap:
-    """The height map in an x3p or SDF file, by the libraries x3pio and sdfio."""
-    file = Path(path)
-    if not file.is_file():
-        raise InputError("no such file", where=str(path))
-    if file.stat().st_size > MAX_UNPACKED:
-        raise InputError(f"larger than {MAX_UNPACKED} bytes", where=file.name, value=file.stat().st_size)
-    data = file.read_bytes()
-    if "main.xml" in members(data):
-        check_archive(data, file.name)
-        import x3pio
-
-        with foreign_parser("x3p", file.name):
-            content = x3pio.X3pFile.loads(data)
-            spacings = (content.header.x.increment, content.header.y.increment)
-            heights = np.asarray(content.layers[0].z, dtype=float)
-    elif data[1:5] in (b"BCR-", b"ISO-"):
-        import sdfio
-
-        with foreign_parser("SDF", file.name):
-            surface = sdfio.SdfFile.loads(data)
-            spacings = (surface.header.x_scale, surface.header.y_scale)
-            heights = np.asarray(surface.data, dtype=float)
-    else:
-        known = foreign(Source(file.name, data), by_ending=True)
-        raise known or InputError("height maps are read from x3p and SDF files", where=file.name)
-    if heights.ndim != 2 or min(heights.shape) < 2 or not all(spacings):
-        raise InputError("holds no regular height map", where=file.name, value=heights.shape)
-    return HeightMap(heights, float(spacings[0]), float(spacings[1]), file.stem)
+from profiles.readers.base import MAX_POINTS, foreign_parser
 
 
 def across(area: HeightMap, start: tuple[float, float], end: tuple[float, float], *, order: int = 3) -> Profile:

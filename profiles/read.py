@@ -15,7 +15,7 @@ from profiles.readers.archive import refuse_broken, unpacked
 from profiles.readers.base import MAX_BYTES, Reader, Source
 from profiles.readers.container import ZipReader
 from profiles.readers.dektak import DektakReader
-from profiles.readers.foreign import foreign
+from profiles.readers.foreign import ForeignFormat, foreign
 from profiles.readers.hfm import HfmReader
 from profiles.readers.mitutoyo import MitutoyoReader
 from profiles.readers.nist_xml import NistXmlReader
@@ -45,13 +45,24 @@ def read(path: str | os.PathLike[str], *, unit: str | None = None, spacing: floa
     """
     return read_source(
         open_source(
-            as_path(path, "profiles.read"), _units(unit), None if spacing is None else length(spacing, "spacing")
+            as_path(path, "profiles.read"), two_units(unit), None if spacing is None else length(spacing, "spacing")
         )
     )
 
 
 def read_source(source: Source) -> Profile:
-    """The profile in a file's bytes, by the first reader that recognises them."""
+    """The profile in a file's bytes, by the first reader that recognises them, else by the optional readers."""
+    from profiles.maps import formats
+
+    try:
+        return _by_base(source)
+    except ForeignFormat as known:
+        if known.format.readers and formats.is_installed():
+            return formats.read_line(source, known.format)
+        raise
+
+
+def _by_base(source: Source) -> Profile:
     if not source.data.strip(b"\x00 \t\r\n"):
         rule = "the file is empty" if b"\x00" not in source.data else "the file holds nothing but zero bytes"
         raise InputError(rule, where=source.where)
@@ -105,7 +116,8 @@ def open_source(path: Path, unit: tuple[str, str] | None, spacing: float | None)
         raise InputError(f"cannot be opened ({error.strerror})", where=where) from None
 
 
-def _units(unit: str | None) -> tuple[str, str] | None:
+def two_units(unit: str | None) -> tuple[str, str] | None:
+    """Plain names of the units of position and height; a single unit is of both."""
     if unit is None:
         return None
     words = [word for word in unit.replace(",", " ").split() if word] if isinstance(unit, str) else []

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from profiles import Profile
+from profiles.maps import HeightMap
 from roughness.clipping import clipping
 from roughness.defects import CUT
 from roughness.moments import Moments, moments
@@ -186,7 +187,7 @@ def _inferred(raw: Profile) -> Iterator[str]:
             yield str(raw.origin[key])
 
 
-def overruled(raw: Profile) -> Iterator[str]:
+def overruled(raw: Profile | HeightMap) -> Iterator[str]:
     """Units and step of the file that the caller overruled."""
     for what in ("units", "spacing"):
         if f"{what}_overruled" in raw.origin:

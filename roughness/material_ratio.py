@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -80,9 +81,20 @@ def core_parameters(profile: Profile, *, method: str = "least squares") -> CoreP
     instruments do. They differ by up to 8 %. Rpk and Rvk are the triangles of equal area. The curve is one of the
     whole profile; ``core_profile`` cuts the evaluation length of the standard.
     """
+    return core_of_curve(*material_ratio_curve(profile), method=method, length=profile.heights.size * profile.spacing)
+
+
+def core_of_curve(
+    ratio: np.ndarray, heights: np.ndarray, *, method: str = "least squares", length: float = math.nan
+) -> CoreParameters:
+    """Rk family of a material ratio curve: ratios (%), and heights from highest to lowest (m). ISO 13565-2, 4.
+
+    >>> ratio = np.linspace(0.5, 99.5, 100)
+    >>> round(core_of_curve(ratio, 1e-6 * (50.0 - ratio)).Rk * 1e6, 9)   # a straight curve is all core
+    100.0
+    """
     if method not in CORE_METHODS:
         raise InputError(f"must be known; {nearest(method, CORE_METHODS)}", where="Rk method", value=method)
-    ratio, heights = material_ratio_curve(profile)
     if method == "class levels":
         levels = np.linspace(heights[0], heights[-1], 101)
         ratio = np.searchsorted(-heights, -levels, side="right") * 100.0 / heights.size
@@ -106,7 +118,7 @@ def core_parameters(profile: Profile, *, method: str = "least squares") -> CoreP
         A2=a2,
         s_shaped=bool(1.0 < start < 59.0 and -40.0 * slope > 0.02 * deciles),
         method=method,
-        length=float(profile.heights.size * profile.spacing),
+        length=float(length),
     )
 
 

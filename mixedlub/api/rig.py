@@ -105,8 +105,8 @@ def surface(profile: str | PathLike[str] | Profile | None = None, **keys: Any) -
         File of a trace, trace of the package (``shipped:NAME``), or heights with their spacing, of which the moments
         are computed at once.
     keys : keyword arguments
-        Keys of a section ``[surfaces.NAME]``, e.g. ``cutoff_mm`` (mm) for a trace, or the moments ``m0_um2`` (µm²),
-        ``m2`` (-) and ``m4_per_um2`` (1/µm²).
+        Keys of a section ``[surfaces.NAME]``, e.g. ``cutoff_mm`` (mm) for a trace, ``map`` for a height map, the
+        moments ``m0_um2`` (µm²), ``m2`` (-) and ``m4_per_um2`` (1/µm²), or ``Ra_um`` (µm) alone.
 
     Returns
     -------

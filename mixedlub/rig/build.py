@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache
 from importlib.resources import files
@@ -26,14 +26,11 @@ from profiles.errors import InputError
 from profiles.profile import Profile
 
 if TYPE_CHECKING:
-    from profiles.image import HeightMap
+    from profiles.maps import HeightMap
+    from roughness.assumed import AssumedMoments
 
 LEAST_NAYAK = 1.5
 """Least m0 m4 / m2^2 of an isotropic Gaussian surface; Nayak 1971."""
-LONG_CUTOFF, SHORT_CUTOFF = 0.8e-3, 2.5e-6
-"""Default cut-offs (m) of a map; the middle row of ISO 3274."""
-
-
 LEAST_SPAN = 30.0
 """Judgement. Temperature difference (K) below which rounding to 0.1 1/GPa would change the slope."""
 DEFAULT_BASE = "mineral"
@@ -253,6 +250,8 @@ def at_short_cutoff(
 ) -> Measured | None:
     """Measured traces or map at a multiple of the short cut-off; None if it is not resolved or missing."""
     if across is None:
+        from roughness.maps.prepare import SHORT_CUTOFF
+
         short = SHORT_CUTOFF * 1e6 if section.short_cutoff_um is None else section.short_cutoff_um
         other = section.model_copy(update={"short_cutoff_um": factor * short})
         with collected() as found:
@@ -274,33 +273,34 @@ def at_short_cutoff(
 
 def flank_map(name: str, section: surface_file.SurfaceSection, folder: Path) -> HeightMap:
     """Roughness of a height map; default cut-offs are 0.8 mm and 2.5 um as far as they fit."""
-    from profiles.image import read_map
-    from roughness.areal import areal_roughness
+    from profiles.maps import read_map
+    from roughness.maps.prepare import prepared_map
 
     with _of_surface(name):
-        area = read_map(named_file(folder, section.map or "", f"surfaces.{name}.map"))
-        long, short = LONG_CUTOFF, SHORT_CUTOFF
-        if section.cutoff_mm is not None:
-            long = section.cutoff_mm * 1e-3
-        if section.short_cutoff_um is not None:
-            short = section.short_cutoff_um * 1e-6
-        fits = section.cutoff_mm is not None or long <= min(area.size)
-        resolved = short >= 2.0 * max(area.spacing_x, area.spacing_y)
-        rough = areal_roughness(
+        file = named_file(folder, section.map or "", f"surfaces.{name}.map")
+        area = read_map(file, unit=section.unit, spacing=section.spacing)
+        rough = prepared_map(
             area,
             form=section.form or "line",
-            cutoff=long if fits else None,
-            short_cutoff=short if resolved else None,
+            cutoff=None if section.cutoff_mm is None else section.cutoff_mm * 1e-3,
+            short_cutoff=None if section.short_cutoff_um is None else section.short_cutoff_um * 1e-6,
+            holes=section.holes,
         )
+    long, short = (rough.cutoffs.get(key) for key in ("cutoff", "short_cutoff"))
+    if doubtful := area.origin.get("units_doubtful"):
+        report(finding("value_unusual", str(doubtful), f"surfaces.{name}"))
     holes = int(np.count_nonzero(~np.isfinite(area.heights)))
     if holes:
-        text = f"{holes} of {area.heights.size} points of the map have no height; its moments leave them out"
+        treated = "are filled from their rims" if section.holes == "fill" else "are left out of its moments"
+        text = (
+            f"{holes} of {area.heights.size} points ({100 * area.holes:.2g} %) of the map have no height and {treated}"
+        )
         report(finding("trace_quality", text, f"surfaces.{name}"))
-    said = f"cutoff_mm = {long * 1e3:g}" if fits else "no cut-off, as the map is shorter than 0.8 mm"
-    said += f", short_cutoff_um = {short * 1e6:g}" if resolved else ""
+    said = "no cut-off, as the map is shorter than 0.8 mm" if long is None else f"cutoff_mm = {long * 1e3:g}"
+    said += "" if short is None else f", short_cutoff_um = {short * 1e6:g}"
     if section.cutoff_mm is None or section.short_cutoff_um is None:
         report(finding("cutoff_assumed", f"{said} assumed for the map", f"surfaces.{name}"))
-    if not resolved:
+    if short is None:
         coarse = max(area.spacing_x, area.spacing_y) * 1e6
         text = f"short cut-off not applied: the spacing of the map, {coarse:.3g} um, is too coarse"
         report(finding("short_cutoff_skipped", text, f"surfaces.{name}"))
@@ -322,7 +322,13 @@ def _check(name: str, across: Traces) -> None:
 def surface(name: str, section: surface_file.SurfaceSection, found: Measured | None = None) -> Surface:
     """Surface from its moments or from measured traces or map."""
     values: dict[str, float]
-    if found is None:
+    alone = assumed(name, section)
+    if alone is not None:
+        values = {"m0": alone.m0, "m2": alone.m2, "m4": alone.m4}
+        ends = {key: alone.ends(key) for key in ("m2", "m4")}
+        band = f"m2 {_span(ends['m2'])}, m4 {_span([end * 1e-12 for end in ends['m4']])} 1/um2"
+        report(finding("moments_assumed", f"{alone.words}; bands: {band}", f"surfaces.{name}"))
+    elif found is None:
         m0, m2, m4 = section.m0_um2 or 0.0, section.m2 or 0.0, section.m4_per_um2 or 0.0
         values = {"m0": m0 * 1e-12, "m2": m2, "m4": m4 * 1e12}
         if section.m2_along is not None and section.m4_along_per_um2 is not None:
@@ -354,9 +360,23 @@ def surface(name: str, section: surface_file.SurfaceSection, found: Measured | N
     return made
 
 
+def assumed(name: str, section: surface_file.SurfaceSection) -> AssumedMoments | None:
+    """Moments of a surface by Ra, Rq or Rz alone; None for any other surface."""
+    from roughness.assumed import assumed_moments
+
+    if section.one_number is None:
+        return None
+    with _of_surface(name):
+        return assumed_moments(*section.one_number)
+
+
+def _span(ends: Sequence[float]) -> str:
+    return " to ".join(f"{end:.2g}" for end in ends)
+
+
 def check_bandwidth(surface: Surface, section: surface_file.SurfaceSection) -> None:
     """Raise an error for stated moments below Nayak's limit; traces may be sampled coarsely, and are flagged."""
-    if not section.is_measured and surface.bandwidth < LEAST_NAYAK:
+    if not section.is_measured and section.one_number is None and surface.bandwidth < LEAST_NAYAK:
         rule = (
             f"Nayak's m0 m4 / m2^2 is {surface.bandwidth:.3g}, and no isotropic Gaussian surface has less than 1.5; "
             "check the units of m0_um2 and m4_per_um2, and that all three are of one short cut-off"

@@ -14,7 +14,7 @@ from profiles.errors import InputError
 from profiles.profile import Profile
 
 if TYPE_CHECKING:
-    from profiles.image import HeightMap
+    from profiles.maps import HeightMap
     from roughness import Moments
 
 LEVEL = 0.9
@@ -97,7 +97,7 @@ class Measured:
 
         groups: list[tuple[Sequence[str], np.ndarray, np.ndarray | float]] = []
         if self.area is not None:
-            from roughness.areal import tiles
+            from roughness.maps.moments import tiles
 
             rows = [self._of_map(part) for part in tiles(self.area, TILES)]
             groups.append(
@@ -121,14 +121,14 @@ class Measured:
     @cached_property
     def _angle(self) -> float:
         """Direction across the lay of a map (rad from its x axis)."""
-        from roughness.areal import areal_moments
+        from roughness.maps.moments import areal_moments
 
         assert self.area is not None
         return areal_moments(self.area).across_lay
 
     def _of_map(self, area: HeightMap) -> Mapping[str, float]:
         """Moments of a map or part of it, across and along its lay; without a lay, means of both directions."""
-        from roughness.areal import areal_moments
+        from roughness.maps.moments import areal_moments
 
         found = areal_moments(area)
         across, along = found.profile(self._angle), found.profile(self._angle + 0.5 * np.pi)
@@ -138,7 +138,7 @@ class Measured:
 
     def _least_scatter(self, area: HeightMap) -> np.ndarray:
         """Relative standard deviations of `_of_map` for Gaussian heights: parts with common waves scatter less."""
-        from roughness.areal import gaussian_scatter
+        from roughness.maps.moments import gaussian_scatter
 
         across, along = self._angle, self._angle + 0.5 * np.pi
         if self.isotropic:

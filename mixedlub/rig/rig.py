@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterator
+from collections.abc import Callable, Hashable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
@@ -79,6 +79,11 @@ class Rig:
         section = self.file.surfaces[name]
         across = self._filtered(name) if section.files else None
         return self._once(("measured", name), lambda: build.measured(name, section, self.folder, across))
+
+    def axes(self, name: str) -> tuple[Mapping[str, float], ...]:
+        """Changes of the logarithms of the moments at the ends of their scatter or assumed band, by axis."""
+        alone = build.assumed(name, self.file.surfaces[name])
+        return self.measured(name).axes(name) if alone is None else alone.axes
 
     def surface(self, name: str) -> Surface:
         """Surface from its moments, traces or map."""

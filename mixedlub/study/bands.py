@@ -48,13 +48,14 @@ def groups(
     if kind == "none":
         return ()
     measured = [name for name in surfaces if rig.file.surfaces[name].is_measured]
-    if not measured:
+    assumed = [name for name in surfaces if rig.file.surfaces[name].one_number is not None]
+    if not measured and not assumed:
         raise InputError("needs surfaces given by traces or a map", where="options.bands", value=kind)
-    stated = [name for name in surfaces if name not in measured]
+    stated = [name for name in surfaces if name not in (*measured, *assumed)]
     if stated:
         text = f"the moments of {', '.join(stated)} are stated; the bands take them as exact"
         report(finding("band_stated_moments", text, "options.bands"))
-    spread = {name: rig.measured(name).axes(name) for name in measured} if kind != "short_cutoff" else {}
+    spread = {name: rig.axes(name) for name in (*measured, *assumed)} if kind != "short_cutoff" else {}
     if spread:
         _tell_samples(rig, measured)
     found = []

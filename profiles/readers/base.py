@@ -47,7 +47,7 @@ class HoldsMap(InputError):
         size = " x ".join(map(str, shape))
         rule = (
             f'holds an areal map of {size} points, not a profile: name it as map = "{file}" of a surface in a study '
-            f'or case, or cut a trace by profiles.image.along_direction(read_map("{file}"), angle)'
+            f'or case, or cut a trace by profiles.image.along_direction(profiles.maps.read_map("{file}"), angle)'
         )
         super().__init__(rule, where=where)
 

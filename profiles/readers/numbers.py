@@ -30,6 +30,8 @@ _RUN = 4
 """Fewest lines of numbers above an empty line that parts two blocks: a count and its length are fewer."""
 _FEW = 10
 """Most lines of results below an empty line."""
+WIDE = 4
+"""Fewest columns of a matrix of heights, in which every cell may be missing."""
 NO_NUMBERS = "no column of numbers found in the text"
 
 
@@ -134,10 +136,11 @@ def _is_numbers(line: str) -> bool:
 def _starts_numbers(lines: list[str], index: int) -> bool:
     """Whether the numbers begin here: this line and the next non-empty one are numbers."""
     following = [line for line in lines[index + 1 : index + 6] if line.strip()]
-    return _is_numbers(lines[index]) and (not following or _is_numbers(following[0]) or _is_absent(following[0]))
+    return _is_numbers(lines[index]) and (not following or _is_numbers(following[0]) or is_absent(following[0]))
 
 
-def _is_absent(line: str) -> bool:
+def is_absent(line: str) -> bool:
+    """Whether a cell of a line stands for a missing number."""
     cells = [cell for cell in re.split(r"[,;\s]+", line.strip()) if cell]
     return any(_ABSENT.match(cell) for cell in cells)
 
@@ -259,24 +262,26 @@ def _parse(body: list[str], delimiter: str | None, comma: bool, width: int, wher
         columns = np.loadtxt(words, delimiter=delimiter, ndmin=2, comments=None)
     except ValueError:
         columns = None
-    if columns is not None and columns.shape[1] == width and np.isfinite(columns).all():
-        return columns.T
+    if columns is not None and columns.shape[1] == width:
+        whole = not np.isinf(columns).any() if width >= WIDE else np.isfinite(columns).all()
+        if whole:
+            return columns.T
     rows = [
-        _row(line, delimiter, width, f"{where}: line {number}")
+        row_of(line, delimiter, width, f"{where}: line {number}")
         for number, line in enumerate(words, start=first)
         if line.strip()
     ]
     return np.array(rows).T
 
 
-def _row(line: str, delimiter: str | None, width: int, where: str) -> list[float]:
+def row_of(line: str, delimiter: str | None, width: int, where: str) -> list[float]:
     """Numbers of a line; a height may be missing, as a word or an empty cell behind a delimiter."""
     cells = split(line, delimiter)
     if delimiter is not None and 1 < width == len(cells) + 1:
         cells.append("nan")
     values = []
     for place, cell in enumerate(cells):
-        is_height = place > 0 or width == 1
+        is_height = place > 0 or width == 1 or width >= WIDE
         missing = is_height and (not cell or (_ABSENT.match(cell) and "inf" not in cell.lower()))
         try:
             values.append(math.nan if missing else number_of(cell))

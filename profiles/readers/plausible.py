@@ -67,15 +67,24 @@ def inferred_note(known: Units, found: tuple[str, str]) -> str:
     return f"{_named(known)}; inferred from the numbers: {', '.join(new)}"
 
 
-def doubt(step: float, heights: np.ndarray, units: tuple[str, str]) -> str | None:
+def doubt(
+    step: float,
+    heights: np.ndarray,
+    units: tuple[str, str],
+    *,
+    steps: tuple[float, float] = _STEPS,
+    kind: str = "trace",
+) -> str | None:
     """Reason to doubt a trace by its step (m) or typical slope, for heights in m, and the unit that suits its numbers.
+
+    ``steps``: the range of usual steps; ``kind``: what is measured, for the message.
 
     >>> doubt(0.5e-6, np.arange(9) * 36e-6, ("mm", "mm"))
     'a typical slope of 1.1e+02, unlike a measured trace; are the heights in um?'
     """
     slope, (x, z) = typical_slope(step, heights), units
     known: Units
-    if not _STEPS[0] <= step <= _STEPS[1]:
+    if not steps[0] <= step <= steps[1]:
         said, what, known = f"a step of {step * 1e6:.3g} um", "positions", (None, z)
     # a trace of flats has no typical slope
     elif slope and not _SLOPES[0] <= slope <= _SLOPES[1]:
@@ -85,7 +94,7 @@ def doubt(step: float, heights: np.ndarray, units: tuple[str, str]) -> str | Non
     weights = _weights(step / METRES[x], slope * METRES[x] / METRES[z], known)
     best = max(weights, key=lambda pair: weights[pair])
     asked = f"; are the {what} in {best[known[1] is None]}?" if weights[best] else ""
-    return f"{said}, unlike a measured trace{asked}"
+    return f"{said}, unlike a measured {kind}{asked}"
 
 
 def _weights(step: float, slope: float, known: Units) -> dict[tuple[str, str], float]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from profiles.errors import InputError
 from profiles.profile import Profile
-from profiles.readers.base import Source, bridged, make_profile
+from profiles.readers.base import HoldsMap, Source, bridged, make_profile
 from profiles.readers.numbers import Counted, Table, decoded, split, table
 from profiles.readers.plausible import Units, doubt, inferred_note, inferred_units
 from profiles.readers.positions import RESAMPLED, Sampled, sampled
@@ -62,9 +62,14 @@ def read_table(
     settings = header_settings(content.header)
     columns = content.columns
     if columns.shape[0] > 2:
+        from profiles.maps.text import is_map
+
+        if is_map(columns):
+            raise HoldsMap(source.where, columns.T.shape)
         rule = (
             f"one or two columns are needed, [position,] height, not {columns.shape[0]}: save each column of heights "
-            "with its positions as a file of its own; a height map is read from x3p and SDF files, not from text"
+            "with its positions as a file of its own; a height map is read from x3p and SDF files, and from text of 16 "
+            "columns and more, or of x, y and height"
         )
         raise InputError(rule, where=source.where)
     if columns.shape[1] < 3:
@@ -238,7 +243,7 @@ def _header_units(content: Table, settings: dict[str, str], where: str) -> Units
             cells = split(line.lstrip("#%* "), None)
         if len(cells) != width:
             continue
-        known = [_cell_unit(cell) for cell in cells]
+        known = [cell_unit(cell) for cell in cells]
         other = next((cell for cell in cells if _claims_another(cell)), None)
         if any(known) and other is not None:
             raise InputError(
@@ -279,7 +284,7 @@ def _pair(units: Sequence[str | None]) -> str:
     return ", ".join(f"{what} {unit}" for what, unit in named if unit)
 
 
-def _cell_unit(cell: str) -> str | None:
+def cell_unit(cell: str) -> str | None:
     """The unit in a column's heading: ``x_mm``, ``z [um]``, ``Lateral um``, ``z/nm``, ``(mm)`` or ``mm``.
 
     Ambiguous words need more: ``a`` and ``in`` brackets, ``in`` and ``m`` at least a slash, ``m`` an underscore.

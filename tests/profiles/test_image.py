@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from profiles import InputError
-from profiles.image import HeightMap, across, along_direction, digitised, read_map
+from profiles.image import across, along_direction, digitised
+from profiles.maps import HeightMap, read_map
 
 WAVE = 40e-6
 

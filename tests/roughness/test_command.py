@@ -332,7 +332,9 @@ def test_a_height_map_has_no_step_to_tell(tmp_path, capsys):
     words = ["profile", str(tmp_path / "a.sdf"), "--no-figures", "--out", str(tmp_path / "o"), "--spacing", "1 um"]
     assert main(words) == 2
     assert "--spacing" in capsys.readouterr().err
-    with pytest.raises(profiles.InputError, match=r'map = "a\.sdf".*along_direction\(read_map\("a\.sdf"\), angle\)'):
+    with pytest.raises(
+        profiles.InputError, match=r'map = "a\.sdf".*along_direction\(profiles\.maps\.read_map\("a\.sdf"\), angle\)'
+    ):
         profiles.read(tmp_path / "a.sdf")
 
 

@@ -14,7 +14,8 @@ from profiles import finishes
 from profiles.errors import InputError
 from profiles.read import read
 from roughness import evaluation_profile, height_parameters, moments
-from roughness.areal import areal_moments, areal_roughness
+from roughness.maps.moments import areal_moments
+from roughness.maps.prepare import areal_roughness
 
 STEP = 0.5e-6
 KNOWN = {"m0_um2": 0.1, "m2": 0.0025, "m4_per_um2": 0.0036}
@@ -132,7 +133,7 @@ def test_the_record_of_traces_says_their_cutoffs(traces, write_study):
 
 
 def test_a_map_gives_the_moments_across_and_along_its_lay(area_file, write_study):
-    from profiles.image import read_map
+    from profiles.maps import read_map
 
     study = read_study(write_study(surfaces={"a": {"map": area_file.name, "short_cutoff_um": 2.5}}))
     found = study.surfaces["a"]
@@ -163,7 +164,7 @@ def test_heights_and_bands_of_a_map_are_those_of_the_whole(area_file, write_stud
 def test_a_few_holes_of_a_map_are_left_out_and_said(area_file, write_study, tmp_path, rows, refused):
     import x3pio
 
-    from profiles.image import read_map
+    from profiles.maps import read_map
 
     holed = np.array(read_map(area_file).heights)
     holed[10 : 10 + rows, 30:230] = np.nan

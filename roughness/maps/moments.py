@@ -1,4 +1,4 @@
-r"""Areal height maps: levelled, filtered, and their spectral moments in every direction.
+r"""Spectral moments of a map in every direction.
 
 Moments of a homogeneous surface :math:`z(x, y)` are :math:`m_{pq} = \int\!\!\int S(k_x, k_y)\,k_x^p k_y^q`, so that
 :math:`m_{20} = \langle z_x^2\rangle`, :math:`m_{11} = \langle z_x z_y\rangle`,
@@ -13,16 +13,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from profiles import InputError, Profile
-from profiles.image import HeightMap, along_direction
+from profiles import InputError
+from profiles.maps import HeightMap
+from roughness.maps.prepare import checked
 from roughness.moments import Moments
-
-SIGMA = math.sqrt(math.log(2.0) / math.pi) / math.sqrt(2.0 * math.pi)
-"""Standard deviation of the Gaussian filter over its cut-off; ISO 16610-61."""
-FEWEST = 16
-"""Fewest rows and columns of a map for its moments to be meaningful."""
-MOST_HOLES = 0.2
-"""Share of points without a height up to which a map is evaluated; differences across a hole are left out."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +76,7 @@ def areal_moments(area: HeightMap) -> ArealMoments:
     >>> round(math.degrees(m.across_lay), 2), round(m.profile(m.across_lay).m2 / (2 * np.pi * 1e-2) ** 2, 2)
     (53.13, 0.5)
     """
-    z, dx, dy = _checked(area), area.spacing_x, area.spacing_y
+    z, dx, dy = checked(area), area.spacing_x, area.spacing_y
     z = z - np.nanmean(z)
     xx, yy = np.diff(z, 2, axis=1) / dx**2, np.diff(z, 2, axis=0) / dy**2
     twist = (z[2:, 2:] - z[2:, :-2] - z[:-2, 2:] + z[:-2, :-2]) / (4.0 * dx * dy)
@@ -102,35 +96,6 @@ def areal_moments(area: HeightMap) -> ArealMoments:
     if min(found.m20, found.m02) <= 0.0:
         raise InputError("is flat: it has no roughness", where=f"map {area.name!r}")
     return found
-
-
-def areal_roughness(
-    area: HeightMap, *, form: str = "line", cutoff: float | None = None, short_cutoff: float | None = None
-) -> HeightMap:
-    """Roughness of a map: without the form, then without waves below ``short_cutoff`` and above ``cutoff`` (m).
-
-    ``form``: none, mean, line (a plane) or polynomial-N of total degree N. Gaussian filters of ISO 16610-61; near the
-    edges the weights are normalised over the points of the map.
-
-    >>> y, x = np.mgrid[0:64, 0:64]
-    >>> tilted = HeightMap(1e-7 * x + 2e-7 * y + 1e-7 * ((x + y) % 2), 1e-6, 1e-6)
-    >>> round(float(areal_roughness(tilted).heights.std() * 1e9), 1)
-    50.0
-    """
-    heights = _levelled(_checked(area), form)
-    if short_cutoff is not None:
-        heights = _smoothed(heights, area, short_cutoff)
-    if cutoff is not None:
-        if short_cutoff is not None and not short_cutoff < cutoff:
-            rule = f"short cut-off must be below the cut-off of {cutoff * 1e6:g} um"
-            raise InputError(rule, where=f"map {area.name!r}: short cut-off (um)", value=short_cutoff * 1e6)
-        if cutoff > min(area.size):
-            rule = f"the map of {min(area.size) * 1e3:.3g} mm is shorter than the cut-off"
-            raise InputError(rule, where=f"map {area.name!r}: cut-off (mm)", value=cutoff * 1e3)
-        heights = heights - _smoothed(heights, area, cutoff)
-    applied = {"cutoff": cutoff, "short_cutoff": short_cutoff}
-    cutoffs = {**area.cutoffs, **{name: length for name, length in applied.items() if length is not None}}
-    return replace(area, heights=heights, cutoffs=cutoffs)
 
 
 def tiles(area: HeightMap, a_side: int = 3) -> list[HeightMap]:
@@ -159,7 +124,7 @@ def gaussian_scatter(area: HeightMap, *angles: float) -> np.ndarray:
     >>> gaussian_scatter(white, 0.0).round(3).tolist()   # sqrt(2/N) of N free heights
     [0.011, 0.014, 0.016]
     """
-    z = _checked(area)
+    z = checked(area)
     rows, columns = (np.hanning(n + 2)[1:-1] for n in z.shape)
     window = np.outer(rows, columns)
     power = np.abs(np.fft.fft2(np.nan_to_num(z - np.nanmean(z)) * window)) ** 2
@@ -174,69 +139,3 @@ def gaussian_scatter(area: HeightMap, *angles: float) -> np.ndarray:
 
 def _mean_square(values: np.ndarray) -> float:
     return float(np.nanmean(np.square(values)))
-
-
-def trace_across_lay(area: HeightMap) -> Profile:
-    """Longest trace through the middle of a map in the direction of its steepest slopes, across its lay.
-
-    >>> y, x = np.mgrid[0:40, 0:60]
-    >>> trace_across_lay(HeightMap(1e-7 * np.cos(x), 1e-6, 1e-6)).heights.size
-    60
-    """
-    angle = areal_moments(areal_roughness(area)).across_lay
-    trace = along_direction(area, angle)
-    said = f"across the lay of a map of {' x '.join(map(str, area.heights.shape))} points, at {math.degrees(angle):.3g}"
-    return replace(trace, steps=(*trace.steps, f"{said} degrees to its rows"))
-
-
-def _checked(area: HeightMap) -> np.ndarray:
-    missing = int(np.count_nonzero(~np.isfinite(area.heights)))
-    if missing > MOST_HOLES * area.heights.size:
-        rule = (
-            f"has holes: {missing} of {area.heights.size} points have no height, more than {100 * MOST_HOLES:g} %. "
-            "Fill them in the instrument's software, cut the map to a part without, or give traces"
-        )
-        raise InputError(rule, where=f"map {area.name!r}")
-    if min(area.heights.shape) < FEWEST:
-        rule = f"a map needs at least {FEWEST} rows and columns"
-        raise InputError(rule, where=f"map {area.name!r}", value=area.heights.shape)
-    return area.heights
-
-
-def _levelled(heights: np.ndarray, form: str) -> np.ndarray:
-    degree = _degree(form)
-    if degree is None:
-        return heights
-    y, x = (np.linspace(-1.0, 1.0, n) for n in heights.shape)
-    across = np.polynomial.legendre.legvander(x, degree)
-    down = np.polynomial.legendre.legvander(y, degree)
-    terms = [np.outer(down[:, i], across[:, j]) for i in range(degree + 1) for j in range(degree + 1 - i)]
-    basis = np.array([term.ravel() for term in terms])
-    there = np.isfinite(heights.ravel())
-    used = basis if there.all() else basis[:, there]
-    fitted = np.linalg.solve(used @ used.T, used @ heights.ravel()[there]) @ basis
-    return heights - fitted.reshape(heights.shape)
-
-
-def _degree(form: str) -> int | None:
-    if form in ("none", "mean", "line"):
-        return {"none": None, "mean": 0, "line": 1}[form]
-    head, _, tail = form.partition("-")
-    if head == "polynomial" and tail.isdigit() and int(tail) <= 8:
-        return int(tail)
-    raise InputError("of a map is none, mean, line or polynomial-0 to polynomial-8", where="form", value=form)
-
-
-def _smoothed(heights: np.ndarray, area: HeightMap, cutoff: float) -> np.ndarray:
-    """Heights after the Gaussian low-pass of a cut-off (m)."""
-    from skimage.filters import gaussian
-
-    sigma = (SIGMA * cutoff / area.spacing_y, SIGMA * cutoff / area.spacing_x)
-
-    def low(values: np.ndarray) -> np.ndarray:
-        filtered: np.ndarray = gaussian(values, sigma=sigma, mode="constant", preserve_range=True)
-        return filtered
-
-    there = np.isfinite(heights)
-    passed = low(np.where(there, heights, 0.0)) / low(there.astype(float))
-    return passed if there.all() else np.where(there, passed, np.nan)
