@@ -104,7 +104,8 @@ def fit_laws(
     Examples
     --------
     >>> import mixedlub as ml
-    >>> water = {"temperature_C": [0, 20, 40, 60, 80, 100], "viscosity_mPa_s": [1.792, 1.002, 0.653, 0.466, 0.354, 0.282]}
+    >>> viscosity = [1.792, 1.002, 0.653, 0.466, 0.354, 0.282]
+    >>> water = {"temperature_C": [0, 20, 40, 60, 80, 100], "viscosity_mPa_s": viscosity}
     >>> found = ml.fit_laws(water, relative_sd=0.005)
     >>> found.best, "andrade" in found.tied
     ('slotte', False)
@@ -114,7 +115,7 @@ def fit_laws(
         if isinstance(readings, str | PathLike):
             read = read_readings(as_path(readings, "fit_laws: readings"), quantity, given, relative_sd)
         else:
-            read = checked(of_columns(dict(readings), quantity, given), relative_sd)
+            read = checked(of_columns({str(name): list(readings[name]) for name in readings}, quantity, given), relative_sd)
         found = ranking(read, tuple(Path(as_path(path, "fit_laws: own")) for path in own))
         made = tables(found)
     warn_of([*read.notes, *findings, *found.range_findings(found.best)])

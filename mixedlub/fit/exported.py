@@ -204,7 +204,7 @@ def _oil(found: Fit, readings: Readings) -> str:
     known = (float(kelvin.min() - ZERO_CELSIUS), float(kelvin.max() - ZERO_CELSIUS))
     how = "derived" if known[0] <= GRADED[0] + 5.0 and known[1] >= GRADED[1] - 5.0 else "typical"
     outside = (
-        "" if how == "derived" else f"; readings are from {known[0]:.4g} to {known[1]:.4g} °C, so it is extrapolated"
+        "" if how == "derived" else f"; readings are from {known[0]:.4g} to {known[1]:.4g} °C: extrapolated"
     )
     typical = "" if recorded is not None else f" over a typical density of {density15:g} kg/m³ at 15 °C"
     properties = [
@@ -219,7 +219,7 @@ def _oil(found: Fit, readings: Readings) -> str:
     lines = [
         f'schema = "{OIL}"',
         f"name = {json.dumps(f'oil of {readings.source}', ensure_ascii=False)}",
-        'about = "Properties that the readings do not have are those of a mineral oil: change base where it is another."',
+        'about = "Properties that the readings do not have are those of a mineral oil; base names another."',
         'base = "mineral"',
     ]
     for name, value, status, source in properties:

@@ -70,7 +70,7 @@ def coordinate(values: np.ndarray) -> np.ndarray:
 
 
 def shares(fitted: np.ndarray, readings: Readings) -> np.ndarray:
-    """Errors of a law: logarithm of fitted over measured, or share of the median reading for readings of either sign."""
+    """Errors of a law: logarithm of fitted over measured; for readings of either sign, shares of their median."""
     if readings.is_logarithmic:
         with np.errstate(all="ignore"):
             return np.asarray(np.clip(np.log(np.maximum(fitted, TINY) / readings.values), -FARTHEST, FARTHEST))
@@ -111,7 +111,8 @@ def _trends(found: Fit, readings: Readings) -> Iterator[Trend | None]:
         p_value = float(fisher.sf(gain / max(square, 1e-12), degree, free))
         shape = np.linalg.lstsq(columns, share, rcond=None)[0]
         at = np.vander(np.array([-1.0, 0.0, 1.0]), degree + 1, increasing=True) @ shape
-        yield Trend(name, p_value, *map(float, at), (float(values.min()), float(values.max())))
+        low, middle, high = map(float, at)
+        yield Trend(name, p_value, low, middle, high, (float(values.min()), float(values.max())))
 
 
 def folds(readings: Readings) -> dict[str, list[np.ndarray]]:

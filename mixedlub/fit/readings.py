@@ -167,13 +167,13 @@ class Readings:
         return None
 
     def _made(self, name: str) -> np.ndarray | None:
-        parts = [self.get(part) for part in self.written(name)]
-        if not parts or any(part is None for part in parts):
-            return None
+        parts = [part for one in self.written(name) if (part := self.get(one)) is not None]
         if name == "speed":
-            return np.abs(parts[0])
+            return np.abs(parts[0]) if parts else None
+        if len(parts) < 3:
+            return None
         viscosity, speed, bearing = parts
-        return viscosity * np.abs(speed) / bearing  # type: ignore[operator,arg-type]
+        return np.asarray(viscosity * np.abs(speed) / bearing)
 
     def written(self, name: str) -> tuple[str, ...]:
         """Quantities of the glossary that a Stribeck law reads as the speed or as the Hersey number; empty if absent.
@@ -234,7 +234,8 @@ def checked(found: Readings, relative_sd: float | None) -> Readings:
 def _of_case(folder: Path, quantity: str | None) -> Readings:
     case = read_case(folder)
     forward = Forward(case, case.recordings) if case.recordings is not None else None
-    assert case.recordings is not None and forward is not None
+    assert case.recordings is not None
+    assert forward is not None
     table, column = case.recordings, case.quantity
     name = next((q for q, known in FITTED.items() if known == column), None)
     if name is None:
@@ -279,7 +280,7 @@ def of_columns(
     if len(lengths) != 1:
         raise InputError("columns must be of one length", where=name, value=sorted(lengths))
     lines = tuple(range(1, lengths.pop() + 1))
-    return _of_sheet(Sheet(name, cells, lines), quantity, constants)  # type: ignore[arg-type]
+    return _of_sheet(Sheet(name, cells, lines), quantity, constants)
 
 
 @dataclass(frozen=True)

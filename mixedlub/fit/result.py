@@ -50,7 +50,7 @@ TABLES = {
     "readings": described(
         law="text: name of the law",
         reading="number of the reading in the table",
-        residual_percent="logarithm of fitted over measured; for readings of either sign fitted minus measured over their median",
+        residual_percent="logarithm of fitted over measured; of readings with either sign, a share of their median",
         standardised="fitted minus measured, over the standard deviation of the reading",
     ),
     "not_judged": described(law="text: name of the law", reason="text: column or reading that is missing"),
@@ -207,7 +207,8 @@ def report(found: Ranking, chosen: Fit) -> Iterator[str]:
     for row in _parameters(chosen):
         unit = "" if row["unit"] == "-" else f" {row['unit']}"
         told = "" if row["told"] == "yes" else "; the readings do not tell it"
-        yield f"  {row['parameter']} = {row['value']:.4g} ({row['low90']:.4g} to {row['high90']:.4g}){unit}, {row['meaning']}{told}"
+        ends = f"{row['low90']:.4g} to {row['high90']:.4g}"
+        yield f"  {row['parameter']} = {row['value']:.4g} ({ends}){unit}, {row['meaning']}{told}"
     misfits = [row for row in _laws(found) if row["misfit"]][:8]
     if misfits:
         yield ""
