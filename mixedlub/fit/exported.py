@@ -203,9 +203,7 @@ def _oil(found: Fit, readings: Readings) -> str:
     assert kelvin is not None
     known = (float(kelvin.min() - ZERO_CELSIUS), float(kelvin.max() - ZERO_CELSIUS))
     how = "derived" if known[0] <= GRADED[0] + 5.0 and known[1] >= GRADED[1] - 5.0 else "typical"
-    outside = (
-        "" if how == "derived" else f"; readings are from {known[0]:.4g} to {known[1]:.4g} °C: extrapolated"
-    )
+    outside = "" if how == "derived" else f"; readings are from {known[0]:.4g} to {known[1]:.4g} °C: extrapolated"
     typical = "" if recorded is not None else f" over a typical density of {density15:g} kg/m³ at 15 °C"
     properties = [
         ("temperature_C", list(GRADED), "derived", "temperatures of the values below"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,7 @@ from mixedlub.fit.exported import exported
 from mixedlub.fit.inference import Fit
 from mixedlub.fit.misfit import shares, sizes
 from mixedlub.fit.ranking import UNFIT, Ranking
-from mixedlub.schema.result import Curve, Panel, Result, described
+from mixedlub.schema.result import Curve, Panel, Result, ResultColumn, described
 from mixedlub.schema.units import split, unit_of, without_unit
 from profiles.errors import InputError, nearest
 
@@ -67,7 +67,22 @@ def result(found: Ranking, title: str, law: str | None = None) -> Result:
         "fit.json": json.dumps(as_json(found, chosen), indent=1, ensure_ascii=False) + "\n",
         "report.txt": "\n".join(lines) + "\n",
     }
-    return Result(title, tables(found), {"residuals": pictures(found)}, lines, (), files=files, columns=TABLES)
+    return Result(
+        title, tables(found), {"residuals": pictures(found)}, lines, (), files=files, columns=columns_of(found)
+    )
+
+
+def columns_of(found: Ranking) -> dict[str, Sequence[ResultColumn]]:
+    """Columns of the tables, with the conditions of the input."""
+    own = found.readings
+    unit = unit_of(own.column)
+    conditions = (
+        ResultColumn("", header, "condition, as in the input", given_unit=split(header)[1] or "-")
+        for header in own.columns
+    )
+    measured = ResultColumn("", own.column, "measured", given_unit=unit)
+    fitted = ResultColumn("", f"fitted_{own.column}", "by the law", given_unit=unit)
+    return {**TABLES, "readings": (*TABLES["readings"], *conditions, measured, fitted)}
 
 
 def chosen_fit(found: Ranking, law: str | None) -> Fit:
