@@ -21,8 +21,12 @@ DESCENTS = 5
 """Cost limit. Best starting points from which the fit descends."""
 ROUNDS = 12
 """Cost limit. Turns of fitting parameters and unknown noise."""
-SETTLED = 1e-6
-"""Judgement. Relative change of the unknown variance at which these turns end."""
+SETTLED = 1e-3
+"""Judgement. Relative change of the unknown noise at which these turns end; the evidence changes by its square."""
+STEP = 1e-6
+"""Judgement. Relative change of coordinates and squares at which a descent ends."""
+AGREED = 1e-2
+"""Judgement. Difference in log probability of two descents that found the same answer."""
 EXACT = 1e-6
 """Judgement. Least standard deviation of a reading over its size: readings are written with few digits."""
 UNDETERMINED = 0.95
@@ -112,8 +116,19 @@ def fit(law: Candidate, readings: Readings, start: np.ndarray | None = None) -> 
     """Fit of a law to readings; ``start``: coordinates near the answer, which save the search."""
     problem = Problem(law, readings)
     starts = [start] if start is not None else _starts(problem)
-    best = min((_descended(problem, z) for z in starts), key=lambda z: _objective(problem, z))
-    return _answer(problem, best)
+    return _answer(problem, _best(problem, starts))
+
+
+def _best(problem: Problem, starts: list[np.ndarray]) -> np.ndarray:
+    """Best answer of the descents, which end once two agree on it."""
+    answers: list[tuple[float, np.ndarray]] = []
+    for z in starts:
+        found = _descended(problem, z)
+        answers.append((_objective(problem, found), found))
+        answers.sort(key=lambda one: one[0])
+        if len(answers) > 1 and answers[1][0] - answers[0][0] < AGREED:
+            break
+    return answers[0][1]
 
 
 def _objective(problem: Problem, z: np.ndarray) -> float:
@@ -140,7 +155,7 @@ def _descended(problem: Problem, z: np.ndarray) -> np.ndarray:
         def together(x: np.ndarray, scale: float = scale) -> np.ndarray:
             return np.concatenate([problem.residuals(x) / scale, x])
 
-        z = least_squares(together, z, method="lm", max_nfev=60 * (z.size + 1)).x
+        z = least_squares(together, z, method="lm", xtol=STEP, ftol=STEP, max_nfev=60 * (z.size + 1)).x
         before, scale = scale, problem.scale(z)
         if abs(scale - before) < SETTLED * before:
             break

@@ -215,7 +215,7 @@ def checked(found: Readings, relative_sd: float | None) -> Readings:
         raise InputError(f"{len(found)} readings are fewer than any law has parameters; 3 are the least", where=where)
     bad = np.flatnonzero(found.values <= 0.0)
     if found.quantity in ("contact_viscosity", "film_thickness") and bad.size:
-        value = float(found.values[bad[0]] * found.factor)
+        value = float(f"{found.values[bad[0]] * found.factor:.6g}")
         raise InputError("must be above 0", where=f"{where}, reading {bad[0] + 1}", value=value)
     if np.ptp(found.values) == 0.0:
         raise InputError(

@@ -130,7 +130,7 @@ def test_a_case_folder_is_read_with_its_contact_and_oil(folder, capsys):
 
 
 def test_readings_outside_the_range_of_a_law_are_said(folder, capsys):
-    made = by_law("drozdov_gavrikov") if False else by_law("misharin")
+    made = by_law("misharin")
     path = written(folder, made.table(1))
     assert main(["fit", str(path), *constants(made), "--out", "o", "--no-figures"]) == 0
     assert "misharin is used outside the range in which it holds" in capsys.readouterr().err
