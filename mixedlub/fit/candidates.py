@@ -22,7 +22,6 @@ from mixedlub.ehl.oil.declared import VISCOSITY, Given, OilLaw, Pair
 from mixedlub.fit.readings import MADE, Readings
 from mixedlub.laws import film, oil
 from mixedlub.own_laws import FileLaw, read_law
-from mixedlub.schema.findings import listed
 from mixedlub.schema.units import ENDINGS, ending_of
 
 FORMS = Path(__file__).with_name("forms")
@@ -73,10 +72,11 @@ class Candidate:
 
 @dataclass(frozen=True)
 class Unjudged:
-    """A law that cannot be judged on a table, and the reason."""
+    """A law that cannot be judged on a table, the reason, and the number of columns that it lacks."""
 
     name: str
     reason: str
+    lacking: int = 0
 
 
 def usual_prior(usual: tuple[float, float]) -> Prior:
@@ -100,7 +100,8 @@ def candidates(readings: Readings, own: tuple[Path, ...] = ()) -> tuple[list[Can
             continue
         lacking = [name for name in one.reads if readings.get(name) is None]
         if lacking:
-            unjudged.append(Unjudged(one.name, f"needs a column {listed([_column(name) for name in lacking])}"))
+            names = ", ".join(map(_column, lacking))
+            unjudged.append(Unjudged(one.name, f"needs a column {names}", len(lacking)))
         else:
             found.append(one)
     return found, unjudged

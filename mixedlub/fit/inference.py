@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.optimize import least_squares
+from scipy.optimize import least_squares, minimize
 from scipy.special import gammaln
 from scipy.stats import norm, qmc
 from scipy.stats import t as student
@@ -23,6 +23,8 @@ ROUNDS = 12
 """Cost limit. Turns of fitting parameters and unknown noise."""
 SETTLED = 1e-3
 """Judgement. Relative change of the unknown noise at which these turns end; the evidence changes by its square."""
+POLISH = 40
+"""Cost limit. Last steps of parameters and unknown noise together."""
 STEP = 1e-6
 """Judgement. Relative change of coordinates and squares at which a descent ends."""
 AGREED = 1e-2
@@ -128,7 +130,12 @@ def _best(problem: Problem, starts: list[np.ndarray]) -> np.ndarray:
         answers.sort(key=lambda one: one[0])
         if len(answers) > 1 and answers[1][0] - answers[0][0] < AGREED:
             break
-    return answers[0][1]
+    best = answers[0][1]
+    if problem.known or not best.size:
+        return best
+    # Turns of parameters and noise creep where prior and readings disagree.
+    polished = minimize(lambda z: _objective(problem, z), best, method="BFGS", options={"maxiter": POLISH})
+    return np.asarray(polished.x if polished.fun < answers[0][0] else best)
 
 
 def _objective(problem: Problem, z: np.ndarray) -> float:

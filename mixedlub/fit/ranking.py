@@ -134,8 +134,9 @@ def ranking(readings: Readings, own: tuple[Path, ...] = ()) -> Ranking:
     """Fit every law of the measured quantity and rank the laws by evidence; ``own``: law files that compete too."""
     laws, unjudged = candidates(readings, own)
     if not laws:
-        reasons = "; ".join(f"{one.name}: {one.reason}" for one in unjudged[:3])
-        raise InputError(f"no law can be judged ({reasons})", where=f"{readings.source}: header")
+        first = min((one for one in unjudged if one.lacking), key=lambda one: one.lacking)
+        rule = f"no law can be judged; the nearest, {first.name}, {first.reason}; a value of all rows goes by --set"
+        raise InputError(rule, where=f"{readings.source}: header")
     spare = SPARE if readings.sd is None else 0
     fitted = []
     for law in laws:

@@ -357,8 +357,9 @@ def _of_sheet(sheet: Sheet, quantity: str | None, constants: Mapping[str, float]
         else:
             meanings[header] = found
     by_quantity = {one.quantity: header for header, one in meanings.items()}
-    if "viscosity" in by_quantity and not {"friction", "friction_torque", "film_thickness"} & set(by_quantity):
-        by_quantity["contact_viscosity"] = by_quantity.pop("viscosity")
+    for viscosity in ("viscosity", "kinematic_viscosity"):
+        if viscosity in by_quantity and not set(FITTED) & set(by_quantity):
+            by_quantity["contact_viscosity"] = by_quantity.pop(viscosity)
     name = _fitted(by_quantity, quantity, unknown, where)
     if name == "contact_viscosity" and "contact_viscosity" not in by_quantity:
         by_quantity["contact_viscosity"] = by_quantity.pop("viscosity")
@@ -386,8 +387,14 @@ def _of_sheet(sheet: Sheet, quantity: str | None, constants: Mapping[str, float]
     if name == "contact_viscosity" and "pressure" not in state:
         state["pressure"] = np.array([AMBIENT])
     header = by_quantity[name]
-    sd = _sd(sheet, header, kept, meanings[header].factor)
-    return _turned(Readings(where, name, state.pop(name), sd, state, columns, notes=tuple(notes)))
+    values, sd = state.pop(name), _sd(sheet, header, kept, meanings[header].factor)
+    if meanings[header].quantity == "kinematic_viscosity":
+        if "oil_density" not in state:
+            rule = "a kinematic viscosity is fitted with the density of the oil: --set density_kg_m3=860, or a column"
+            raise InputError(rule, where=f"{where}: {header}")
+        values = values * state["oil_density"]
+        sd = None if sd is None else sd * state["oil_density"]
+    return _turned(Readings(where, name, values, sd, state, columns, notes=tuple(notes)))
 
 
 def _fitted(known: Mapping[str, str], quantity: str | None, unknown: Sequence[str], where: str) -> str:
