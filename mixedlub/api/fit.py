@@ -115,7 +115,9 @@ def fit_laws(
         if isinstance(readings, str | PathLike):
             read = read_readings(as_path(readings, "fit_laws: readings"), quantity, given, relative_sd)
         else:
-            read = checked(of_columns({str(name): list(readings[name]) for name in readings}, quantity, given), relative_sd)
+            read = checked(
+                of_columns({str(name): list(readings[name]) for name in readings}, quantity, given), relative_sd
+            )
         found = ranking(read, tuple(Path(as_path(path, "fit_laws: own")) for path in own))
         made = tables(found)
     warn_of([*read.notes, *findings, *found.range_findings(found.best)])

@@ -136,22 +136,25 @@ def test_readings_outside_the_range_of_a_law_are_said(folder, capsys):
     assert "misharin is used outside the range in which it holds" in capsys.readouterr().err
 
 
-GOOD = {"temperature_C": [20.0, 40.0, 60.0, 80.0, 100.0], "viscosity_mPa_s": [100.0, 40.0, 18.0, 10.0, 6.0]}
+CELSIUS, FALLING = [20.0, 40.0, 60.0, 80.0, 100.0], [5, 4, 3, 2, 1]
+GOOD = {"temperature_C": CELSIUS, "viscosity_mPa_s": [100.0, 40.0, 18.0, 10.0, 6.0]}
+ALIKE = {"temperature_C": [40.0] * 5, "viscosity_mPa_s": [10.0, 10.1, 9.9, 10.2, 9.8]}
 SPEED = [0.1, 0.2, 0.5, 1.0, 2.0]
 
 
 @pytest.mark.parametrize(
     ("table", "words", "message"),
     [
-        ({"temperature_C": GOOD["temperature_C"], "viscosty_mPa_s": [5, 4, 3, 2, 1]}, [], "nearest known: 'viscosity_mPa_s'"),
+        ({"temperature_C": CELSIUS, "viscosty_mPa_s": FALLING}, [], "nearest known: 'viscosity_mPa_s'"),
         ({"colour_of_oil": SPEED, "x": SPEED}, [], "has no column to fit laws to: friction_coefficient"),
         ({**GOOD, "viscosity_mPa_s": [100.0, 40.0, -18.0, 10.0, 6.0]}, [], "reading 3: -18.0: must be above 0"),
         ({**GOOD, "viscosity_mPa_s": [10.0] * 5}, [], "all 5 readings are the same"),
-        ({"temperature_C": [40.0] * 5, "viscosity_mPa_s": [10.0, 10.1, 9.9, 10.2, 9.8]}, [], "no condition has a second level"),
+        (ALIKE, [], "no condition has a second level"),
         ({name: values[:2] for name, values in GOOD.items()}, [], "2 readings are fewer"),
-        ({"temperature": GOOD["temperature_C"], "viscosity_mPa_s": [5, 4, 3, 2, 1]}, [], "has no unit"),
-        ({"temperature (N)": GOOD["temperature_C"], "viscosity_mPa_s": [5, 4, 3, 2, 1]}, [], "N is no unit of"),
+        ({"temperature": CELSIUS, "viscosity_mPa_s": FALLING}, [], "has no unit"),
+        ({"temperature (N)": CELSIUS, "viscosity_mPa_s": FALLING}, [], "N is no unit of"),
         ({"load_N": SPEED, "film_thickness_nm": SPEED}, [], "no law can be judged"),
+        ({"temperature_C": CELSIUS, "viscosity_mm2_s": FALLING}, [], "--set density_kg_m3=860"),
         (GOOD, ["--quantity", "film_thicknes_nm"], "nearest known: 'film_thickness_nm'"),
         (GOOD, ["--relative-sd", "2"], "must lie above 0 and below 1"),
         (GOOD, ["--set", "radius"], "is COLUMN=NUMBER"),

@@ -101,6 +101,20 @@ def test_water_thins_towards_a_divergence():
     assert own["vogel", "a"] == pytest.approx(0.6527, rel=0.005)
 
 
+@pytest.mark.literature("a lubricant at 1 atm, D. M. Bates, D. G. Watts (1988), appendix 1; oils follow ASTM D341")
+def test_a_lubricant_follows_d341():
+    oil = {
+        "temperature_C": [0.0, 0.0, 25.0, 37.7778, 98.8889, 98.8889],
+        "kinematic_viscosity_mm2_s": np.exp([5.10595, 5.10716, 4.54223, 4.29865, 3.38099, 3.37417]),
+    }
+    found = ml.fit_laws(oil, constants={"density_kg_m3": 870.0})
+    rms = found.laws.set_index("law")["rms_percent"]
+    assert found.best == "d341"
+    assert rms["d341"] < 0.5
+    assert rms["barus"] > 3.0
+    assert "barus" not in found.tied
+
+
 @pytest.mark.literature(
     "the automatic transmission fluid of Xu's two discs: 14.9, 8.9, 5.8 mPa s at 60, 80, 100 °C; D341"
 )
