@@ -108,16 +108,16 @@ def fit_laws(
     >>> water = {"temperature_C": [0, 20, 40, 60, 80, 100], "viscosity_mPa_s": viscosity}
     >>> found = ml.fit_laws(water, relative_sd=0.005)
     >>> found.best, "andrade" in found.tied
-    ('slotte', False)
+    ('vogel', False)
     """
     with collected() as findings:
         given = dict(constants or {})
         if isinstance(readings, str | PathLike):
             read = read_readings(as_path(readings, "fit_laws: readings"), quantity, given, relative_sd)
         else:
-            read = checked(
-                of_columns({str(name): list(readings[name]) for name in readings}, quantity, given), relative_sd
-            )
+            columns: Any = readings
+            table = {str(name): list(columns[name]) for name in columns}
+            read = checked(of_columns(table, quantity, given), relative_sd)
         found = ranking(read, tuple(Path(as_path(path, "fit_laws: own")) for path in own))
         made = tables(found)
     warn_of([*read.notes, *findings, *found.range_findings(found.best)])

@@ -59,27 +59,6 @@ def _film(law: Regression, radius: np.ndarray, material: np.ndarray, speed: np.n
     return film
 
 
-def regression_film(
-    law: Regression,
-    radius: np.ndarray,
-    entrainment_speed: np.ndarray,
-    line_load: np.ndarray,
-    viscosity: np.ndarray,
-    pressure_viscosity: np.ndarray,
-    reduced_modulus: np.ndarray,
-) -> np.ndarray:
-    r"""Film thickness of a line contact by a regression (m), :math:`c\,R\,U^a G^b W^d`.
-
-    Groups as in `dowson_toyoda`. Source: as `RIVALS`.
-
-    >>> h = regression_film(RIVALS["Grubin"], 8.3262e-3, 2.1630, 214.86e3, 0.01489, 14.81e-9, 226.374e9)
-    >>> round(float(h) * 1e6, 4)
-    0.2297
-    """
-    groups = _line_groups(radius, entrainment_speed, line_load, viscosity, reduced_modulus)
-    return _film(law, radius, pressure_viscosity * reduced_modulus, *groups)
-
-
 def moes_load(
     radius: np.ndarray,
     entrainment_speed: np.ndarray,
