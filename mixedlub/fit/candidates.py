@@ -43,7 +43,7 @@ RIVAL_SOURCES = {
 LEAST_COEFFICIENT = 1e-10
 """Judgement. Least pressure-viscosity coefficient (1/Pa) far beyond the temperatures of the readings."""
 BETTER = {"1/Pa": "1/GPa", "Pa s": "mPa s", "N/m": "N/mm"}
-"""Units of headers in place of those of SI."""
+"""Units of headers in place of SI units."""
 OUT_OF_REACH = {
     "condensed": "`mixedlub evaluate regression` fits it",
     "loepenhaus": "`mixedlub evaluate calibration` fits it",
@@ -92,7 +92,7 @@ def usual_prior(usual: tuple[float, float]) -> Prior:
 
 
 def candidates(readings: Readings, own: tuple[Path, ...] = ()) -> tuple[list[Candidate], list[Unjudged]]:
-    """Laws of the measured quantity whose inputs are known, and the others with the reason."""
+    """Laws of the measured quantity with known inputs, and the other laws with the reason."""
     found, unjudged = [], []
     for one in _of(readings, own):
         if isinstance(one, Unjudged):
@@ -169,7 +169,7 @@ def _factor(spread: float) -> Parameter:
 
 @cache
 def film_laws() -> Mapping[str, Law]:
-    """Film laws by name: those of studies, and further laws of lines and points."""
+    """Film laws by name: the laws of studies, and further laws of lines and points."""
     found = dict(FILM.choices)
     for name in RIVAL_SOURCES:
         word, valid = name.lower().replace(" ", "_"), film.ELASTIC | film.PIEZOVISCOUS

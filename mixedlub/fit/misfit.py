@@ -78,7 +78,7 @@ def shares(fitted: np.ndarray, readings: Readings) -> np.ndarray:
 
 
 def sizes(readings: Readings) -> np.ndarray:
-    """Size of the readings, of which errors are shares: each reading, or the median where readings have either sign."""
+    """Sizes to which errors relate: each reading, or the median where readings have either sign."""
     size = np.abs(readings.values)
     return size if readings.is_logarithmic else np.full(size.shape, float(np.median(size)) or 1.0)
 

@@ -20,9 +20,9 @@ from mixedlub.schema.findings import Finding
 from profiles.errors import InputError
 
 TIED = 0.1
-"""Definition. Probability over that of the best law from which another law is tied with it, as in a diagnosis."""
+"""Definition. Ratio of probabilities from which a law is tied with the best law, as in a diagnosis."""
 JUDGED_FURTHER = 6
-"""Cost limit. Best laws whose error at left-out levels is computed."""
+"""Cost limit. Best laws with an error at left-out levels."""
 SAME = 0.02
 """Judgement. Difference of two laws, in standard deviations of a reading, up to which they give the same values."""
 UNFIT = 0.01
@@ -156,7 +156,7 @@ def ranking(readings: Readings, own: tuple[Path, ...] = ()) -> Ranking:
 
 
 def _distinct(fitted: Sequence[Fit], unjudged: list[Unjudged]) -> list[Fit]:
-    """Laws without those that equal a law of fewer parameters on these readings."""
+    """Laws that equal no law of fewer parameters on these readings."""
     kept = []
     for one in fitted:
         twin = next((other for other in fitted if _is_twin(one, other)), None)
