@@ -7,7 +7,8 @@ import mixedlub as ml
 from mixedlub.chain.friction_law import FRICTION_LAWS
 from mixedlub.chain.priors import LogNormal
 from mixedlub.fit import checked, of_columns, ranking
-from mixedlub.fit.candidates import FILM_SPREAD, FRICTION_SPREAD
+from mixedlub.fit.candidates import FILM_SPREAD, FRICTION_SPREAD, candidates
+from mixedlub.fit.inference import fit
 from tests.fit.made_up import BALL, MADE_UP, NOISE, MadeUp
 
 QUICK = (
@@ -52,10 +53,10 @@ def test_intervals_hold_the_true_constants():
         t = np.linspace(0.0, 120.0, 16)
         true = 40.0 * np.exp(900.0 / (t + 98.15) - 900.0 / 138.15)
         table = {"temperature_C": t, "viscosity_mPa_s": true * (1.0 + NOISE * random.standard_normal(16))}
-        found = ranking(checked(of_columns(table, None, {}), None))
-        fit = next(one for one in found.fits if one.law.name == "vogel")
+        readings = checked(of_columns(table, None, {}), None)
+        found = fit(next(law for law in candidates(readings)[0] if law.name == "vogel"), readings)
         for name, value in (("a", 40.0), ("b", 900.0), ("c", 175.0)):
-            inside.append(fit.low90[name] <= value <= fit.high90[name])
+            inside.append(found.low90[name] <= value <= found.high90[name])
     assert 0.84 <= np.mean(inside) <= 0.96
 
 
@@ -63,24 +64,24 @@ def test_intervals_hold_the_true_constants():
 def test_evidence_equals_the_exact_integral(made, spread):
     """A factor with a lognormal prior is a normal shift of logarithms: the integral is a normal density."""
     found = found_of(by_law(made), 2, relative_sd=NOISE)
-    fit = next(one for one in found.fits if one.law.name == made)
+    own = next(one for one in found.fits if one.law.name == made)
     logs = np.log(found.readings.values)
-    centre = np.log(fit.fitted / fit.parameters["factor"])
+    centre = np.log(own.fitted / own.parameters["factor"])
     n = logs.size
     # Covariance s^2 I + q^2 1 1^T: determinant and inverse by hand.
     off, inner = logs - centre, NOISE**2 + n * spread**2
     square = (off @ off - spread**2 * off.sum() ** 2 / inner) / NOISE**2
     exact = -0.5 * (square + (n - 1) * np.log(NOISE**2) + np.log(inner) + n * np.log(2.0 * np.pi)) - logs.sum()
-    assert fit.evidence == pytest.approx(exact, abs=1e-3)
-    assert isinstance(fit.law.parameters[0].prior, LogNormal)
+    assert own.evidence == pytest.approx(exact, abs=1e-3)
+    assert isinstance(own.law.parameters[0].prior, LogNormal)
 
 
 def test_criteria_of_a_known_noise():
     found = found_of(by_law("hamrock_dowson"), 3, relative_sd=NOISE)
-    fit, n = found.best, len(found.readings)
-    off = np.log(fit.fitted / found.readings.values) / NOISE
+    own, n = found.best, len(found.readings)
+    off = np.log(own.fitted / found.readings.values) / NOISE
     twice = off @ off + np.sum(np.log(2.0 * np.pi * (NOISE * found.readings.values) ** 2))
-    assert found.criteria(fit) == pytest.approx((twice + 2.0 + 4.0 / (n - 2), twice + np.log(n)))
+    assert found.criteria(own) == pytest.approx((twice + 2.0 + 4.0 / (n - 2), twice + np.log(n)))
 
 
 WATER = {
