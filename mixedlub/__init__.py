@@ -20,6 +20,8 @@ PUBLIC = {
     "along_path": "mixedlub.api.loss",
     "load_distribution": "mixedlub.api.gear",
     "evaluate_recording": "mixedlub.api.evaluation",
+    "fit_laws": "mixedlub.api.fit",
+    "LawFit": "mixedlub.api.fit",
     "gearbox_efficiency": "mixedlub.api.efficiency",
     "plot": "mixedlub.api.plot",
     "diagnose": "mixedlub.api.diagnosis",

@@ -39,6 +39,7 @@ RESULTS = {
     "ehl": ("mixedlub.ehl.table", "TABLES"),
     "friction": ("mixedlub.study.friction_comparison", "TABLES"),
     "condense": ("mixedlub.solutions.result_columns", "CONDENSED"),
+    "fit": ("mixedlub.fit", "TABLES"),
     "law_errors": ("mixedlub.solutions.result_columns", "LAW_ERRORS"),
     "simulate": ("mixedlub.commands.simulate", "TABLES"),
 }

@@ -8,12 +8,16 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Coefficient:
-    """A coefficient of a law, given by the user; required if it has no default."""
+    """A coefficient of a law, given by the user; required if it has no default.
+
+    ``usual``: range of values of nine laws in ten, over which a fit to readings looks for the coefficient.
+    """
 
     name: str
     unit: str
     meaning: str
     default: float | None = None
+    usual: tuple[float, float] | None = None
 
 
 def described(c: Coefficient) -> str:

@@ -16,6 +16,7 @@ from mixedlub.laws.contact import mean_hertz_pressure
             "limiting_stress_ratio",
             "-",
             "limiting shear stress over pressure; naphthenic oil 0.053, paraffinic 0.047, PAO 0.035, PAG 0.044",
+            usual=(0.03, 0.12),
         ),
     ),
 )

@@ -8,7 +8,7 @@ from mixedlub.chain.friction_law import Coefficient, friction_law
     "mesh",
     sources=0,
     status="yours",
-    coefficients=(Coefficient("friction", "-", "friction coefficient"),),
+    coefficients=(Coefficient("friction", "-", "friction coefficient", usual=(0.005, 0.3)),),
 )
 def constant(*, friction: float) -> float:
     r"""A friction coefficient that depends on nothing (-).

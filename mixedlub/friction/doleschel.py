@@ -13,10 +13,12 @@ from mixedlub.chain.powers import power
     status="the share of the asperities has three sources; constants of the film friction none: they are the oil's, "
     "measured by the FVA efficiency test, and yours",
     coefficients=(
-        Coefficient("film_friction", "-", "friction of the film at 1000 N/mm², 8.3 m/s and 20 mPa s"),
-        Coefficient("pressure_exponent", "-", "exponent of the pressure", 0.0),
-        Coefficient("speed_exponent", "-", "exponent of the sum speed", 0.0),
-        Coefficient("viscosity_exponent", "-", "exponent of the viscosity", 0.0),
+        Coefficient(
+            "film_friction", "-", "friction of the film at 1000 N/mm², 8.3 m/s and 20 mPa s", usual=(0.005, 0.04)
+        ),
+        Coefficient("pressure_exponent", "-", "exponent of the pressure", 0.0, (-0.3, 0.3)),
+        Coefficient("speed_exponent", "-", "exponent of the sum speed", 0.0, (-0.3, 0.3)),
+        Coefficient("viscosity_exponent", "-", "exponent of the viscosity", 0.0, (-0.3, 0.3)),
     ),
 )
 def doleschel(

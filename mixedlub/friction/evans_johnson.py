@@ -12,8 +12,18 @@ from mixedlub.laws.contact import mean_hertz_pressure
     sources=0,
     status="regimes only: no source opened prints the constants for a gear oil, so they are yours",
     coefficients=(
-        Coefficient("limiting_stress_ratio", "-", "limiting shear stress over mean pressure, of the plastic regime"),
-        Coefficient("shear_modulus_GPa", "GPa", "shear modulus of the oil under pressure, of the viscoelastic regime"),
+        Coefficient(
+            "limiting_stress_ratio",
+            "-",
+            "limiting shear stress over mean pressure, of the plastic regime",
+            usual=(0.03, 0.12),
+        ),
+        Coefficient(
+            "shear_modulus_GPa",
+            "GPa",
+            "shear modulus of the oil under pressure, of the viscoelastic regime",
+            usual=(0.05, 2.0),
+        ),
     ),
 )
 def evans_johnson(

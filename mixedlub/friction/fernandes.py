@@ -12,7 +12,7 @@ from mixedlub.chain.powers import power
     sources=1,
     status="one source, a program, which has no factor of the oil; papers fold one in",
     diverges=("pitch_entrainment_speed",),
-    coefficients=(Coefficient("lubricant_factor", "-", "factor of the oil, X_L", 1.0),),
+    coefficients=(Coefficient("lubricant_factor", "-", "factor of the oil, X_L", 1.0, (0.6, 1.15)),),
 )
 def fernandes(
     pitch_entrainment_speed: np.ndarray,

@@ -13,7 +13,9 @@ from mixedlub.friction.schlenk import pitch_load
     sources=1,
     status="one source",
     diverges=("pitch_entrainment_speed",),
-    coefficients=(Coefficient("lubricant_factor", "-", "factor of the base stock beside that of viscosity", 1.0),),
+    coefficients=(
+        Coefficient("lubricant_factor", "-", "factor of the base stock beside that of viscosity", 1.0, (0.6, 1.15)),
+    ),
 )
 def iso_tr_13989(
     mesh_line_load: np.ndarray,

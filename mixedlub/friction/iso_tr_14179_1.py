@@ -14,10 +14,10 @@ from mixedlub.chain.powers import power
     valid={"pitch_line_speed": (2.0, 25.0), "load_intensity": (1.4e6, 14e6)},
     diverges=("pitch_line_speed",),
     coefficients=(
-        Coefficient("divisor", "-", "constant C1 of the standard"),
-        Coefficient("viscosity_exponent", "-", "exponent of the viscosity"),
-        Coefficient("load_exponent", "-", "exponent of the load intensity"),
-        Coefficient("speed_exponent", "-", "exponent of the pitch-line speed"),
+        Coefficient("divisor", "-", "constant C1 of the standard", usual=(0.3, 30.0)),
+        Coefficient("viscosity_exponent", "-", "exponent of the viscosity", usual=(-1.0, 0.5)),
+        Coefficient("load_exponent", "-", "exponent of the load intensity", usual=(-1.0, 1.0)),
+        Coefficient("speed_exponent", "-", "exponent of the pitch-line speed", usual=(0.0, 1.5)),
     ),
 )
 def iso_tr_14179_1(

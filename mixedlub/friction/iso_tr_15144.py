@@ -14,7 +14,7 @@ from mixedlub.friction.schlenk import pitch_load
     status="one source",
     diverges=("pitch_entrainment_speed",),
     coefficients=(
-        Coefficient("lubricant_factor", "-", "factor of the oil, X_L", 1.0),
+        Coefficient("lubricant_factor", "-", "factor of the oil, X_L", 1.0, (0.6, 1.15)),
         Coefficient("load_factor", "-", "product of the factors of load, K_A K_v K_Ha K_Hb K_Bg", 1.0),
     ),
 )

@@ -11,8 +11,8 @@ from mixedlub.chain.friction_law import Coefficient, friction_law
     sources=2,
     status="the share of the asperities has two sources; the friction of the film is yours",
     coefficients=(
-        Coefficient("film_friction", "-", "friction of the film"),
-        Coefficient("rz_sum_um", "µm", "peak-to-valley heights of both surfaces, Rz1 + Rz2"),
+        Coefficient("film_friction", "-", "friction of the film", usual=(0.003, 0.04)),
+        Coefficient("rz_sum_um", "µm", "peak-to-valley heights of both surfaces, Rz1 + Rz2", usual=(0.5, 20.0)),
     ),
 )
 def matsumoto(

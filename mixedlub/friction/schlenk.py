@@ -15,7 +15,11 @@ from mixedlub.chain.powers import power
     diverges=("pitch_entrainment_speed",),
     coefficients=(
         Coefficient(
-            "lubricant_factor", "-", "factor of the oil, X_L; mineral 0.85 to 1, PAO 0.65 to 0.8, PAG 0.6 to 0.7", 1.0
+            "lubricant_factor",
+            "-",
+            "factor of the oil, X_L; mineral 0.85 to 1, PAO 0.65 to 0.8, PAG 0.6 to 0.7",
+            1.0,
+            (0.6, 1.15),
         ),
     ),
 )

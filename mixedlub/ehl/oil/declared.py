@@ -24,7 +24,8 @@ Pair = tuple[Number, Number]
 class Given:
     """A constant of a law: argument of the function, key of the file with its field, and conversion to SI.
 
-    Several keys with the same argument are entries of a tuple.
+    Several keys with the same argument are entries of a tuple. ``usual``: range of values of nine oils in ten, over
+    which a fit to readings looks for the constant; None for a temperature to which the others refer.
     """
 
     name: str
@@ -34,6 +35,7 @@ class Given:
     type: Any = Number
     example: Any = None
     limits: dict[str, Any] = field(default_factory=dict)
+    usual: tuple[float, float] | tuple[tuple[float, float], ...] | None = None
 
     @property
     def field(self) -> tuple[Any, Any]:

@@ -26,7 +26,13 @@ TEMPERATURE = Given(
     limits={"gt": -oil.ZERO_CELSIUS},
 )
 KNOWN = Given(
-    "viscosity", "viscosity_mPa_s", "viscosity at ambient pressure", times(MILLI), example=14.89, limits=ABOVE
+    "viscosity",
+    "viscosity_mPa_s",
+    "viscosity at ambient pressure",
+    times(MILLI),
+    example=14.89,
+    limits=ABOVE,
+    usual=(2.0, 1000.0),
 )
 COEFFICIENT = Given(
     "pressure_viscosity",
@@ -35,6 +41,7 @@ COEFFICIENT = Given(
     lambda value: value / GIGA,
     example=14.81,
     limits=ABOVE,
+    usual=(10.0, 32.0),
 )
 FALL = Given(
     "temperature_viscosity",
@@ -42,6 +49,7 @@ FALL = Given(
     "relative fall of the viscosity",
     example=0.030,
     limits={"ge": 0.0},
+    usual=(0.015, 0.07),
 )
 AT_ONE = (TEMPERATURE, KNOWN, COEFFICIENT, FALL)
 
@@ -122,8 +130,16 @@ BLEND = (0.7, 1.4)
         "pressure-viscosity coefficient far above the transition",
         lambda value: value / GIGA,
         limits=ABOVE,
+        usual=(4.0, 16.0),
     ),
-    Given("transition", "transition_pressure_MPa", "pressure of the transition", times(MEGA), limits=ABOVE),
+    Given(
+        "transition",
+        "transition_pressure_MPa",
+        "pressure of the transition",
+        times(MEGA),
+        limits=ABOVE,
+        usual=(150.0, 1000.0),
+    ),
     FALL,
 )
 def two_slope(
@@ -164,11 +180,18 @@ def two_slope(
 @VISCOSITY.offers(
     "exp[p/(A + Bp)] of Bode, over ASTM D341",
     Given("known_temperature", "known_temperature_C", "two temperatures of known viscosity", kelvin, Pair),
-    Given("known_viscosity", "kinematic_viscosity_mm2_s", "kinematic viscosity at these", times(MICRO), Pair),
-    Given("modulus", "modulus_GPa", "a1 of A = a1 + a2 T, T in K", times(GIGA)),
-    Given("modulus", "modulus_per_kelvin_MPa", "a2 of A = a1 + a2 T (MPa/K)", times(MEGA)),
-    Given("stiffening", "stiffening", "b1 of B = b1 + b2 T, T in K"),
-    Given("stiffening", "stiffening_per_K", "b2 of B = b1 + b2 T"),
+    Given(
+        "known_viscosity",
+        "kinematic_viscosity_mm2_s",
+        "kinematic viscosity at these",
+        times(MICRO),
+        Pair,
+        usual=((5.0, 1000.0), (1.5, 60.0)),
+    ),
+    Given("modulus", "modulus_GPa", "a1 of A = a1 + a2 T, T in K", times(GIGA), usual=(-0.15, 0.05)),
+    Given("modulus", "modulus_per_kelvin_MPa", "a2 of A = a1 + a2 T (MPa/K)", times(MEGA), usual=(0.15, 0.7)),
+    Given("stiffening", "stiffening", "b1 of B = b1 + b2 T, T in K", usual=(-0.2, 0.1)),
+    Given("stiffening", "stiffening_per_K", "b2 of B = b1 + b2 T", usual=(0.0, 7e-4)),
 )
 def modulus(
     pressure: np.ndarray,
