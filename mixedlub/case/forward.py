@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -19,10 +19,12 @@ from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Chain, Model, Parameters, Record, available
 from mixedlub.chain.ranges import beyond
 from mixedlub.effects import known_effects, known_in
+from mixedlub.kinds.history import histories
 from mixedlub.kinds.calibration import Calibration, calibrations, of_base_law, of_parameter
 from mixedlub.kinds.kind import ageing, varies
-from mixedlub.own_laws import check_usable, columns_read
+from mixedlub.own_laws import check_usable, columns_read, pasts_read
 from mixedlub.schema.findings import collected
+from mixedlub.schema.past import Past
 from mixedlub.schema.table import Table
 from profiles.errors import InputError, nearest
 
@@ -70,7 +72,7 @@ class Forward:
             if "sequence" in self.inputs:
                 self.inputs["ageing"] = ageing(recorded, self.inputs["sequence"])
             extra = case.kind.extra_calibration(case.system, recorded)
-            self.inputs |= columns_read(case.laws.values(), table.columns)
+            self.inputs |= self.columns_of(case.laws.values())
             formulas = case.kind.chain(case.system, table)
             self.base = self._based(formulas)
         self.notes = tuple(notes)
@@ -121,10 +123,21 @@ class Forward:
         """The same rows of a case that has further laws."""
         found = copy(self)
         found.case = case
-        found.inputs = {**self.inputs, **columns_read(case.laws.values(), self.table.columns)}
+        found.inputs = {**self.inputs, **self.columns_of(case.laws.values())}
         found.catalogue = MappingProxyType({**self.catalogue, **case.laws})
         found._model = lru_cache(maxsize=1024)(found._build)
         return found
+
+    def columns_of(self, laws: Iterable[Effect]) -> dict[str, Any]:
+        """Columns of the rows that laws read, and the history of conditions, as inputs."""
+        laws = tuple(laws)
+        pasts = pasts_read(laws, self.case.kind.numbers)
+        return columns_read(laws, {**self.table.columns, **self.histories(pasts)})
+
+    def histories(self, pasts: Iterable[Past]) -> dict[str, np.ndarray]:
+        """History coordinates of the rows by name, within the recording of the case."""
+        recorded = self.table if self.case.recordings is None else self.case.recordings
+        return histories(pasts, self.table, recorded, self.case.kind.is_history)
 
     def _add(self, missing: MissingPart) -> None:
         """Make a table of the missing part an effect of the base model."""

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.case.folder import Case
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.priors import LogNormal, Normal, Prior, Uniform
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut, LevelsOut
@@ -37,10 +36,10 @@ from mixedlub.diagnosis.settings.discovery import (
     SAME_WITHIN,
 )
 from mixedlub.diagnosis.settings.inference import LIKELY
-from mixedlub.own_laws import check_usable, columns_read
+from mixedlub.own_laws import check_usable
 from mixedlub.recording.conditions import PASSING
 from mixedlub.running.parallel import shared_out
-from mixedlub.schema.table import BOOKKEEPING, Table
+from mixedlub.schema.table import Table
 from profiles.errors import InputError
 
 NAME = "found_law"
@@ -106,7 +105,7 @@ class FoundLaw:
     @property
     def written(self) -> Effect:
         """The law as an effect, with the fitted values in its file."""
-        return as_effect({**self.data, "id": self.effect.id}, _columns(self.search.problem.case))
+        return as_effect({**self.data, "id": self.effect.id}, self.search.problem.case.kind.numbers)
 
     @property
     def posterior(self) -> Posterior:
@@ -279,7 +278,6 @@ def _offered(
     """The candidates as effects, without laws that cannot act in the chain."""
     problem = search.problem
     kind = problem.case.kind
-    columns = _columns(problem.case)
     ranges = {v.text: [float(v.values.min()), float(v.values.max())] for v in every if _has_range(v.text)}
     found: list[tuple[Effect, dict[str, Any], Candidate]] = []
     for c in leaders:
@@ -289,8 +287,8 @@ def _offered(
         name = f"{stem}_{number}" if number > 1 else stem
         data = law_data(name, c, c.target.column, ranges)
         try:
-            law = as_effect(data, columns)
-            inputs = {**problem.forward.inputs, **columns_read([law], problem.rows.columns)}
+            law = as_effect(data, kind.numbers)
+            inputs = {**problem.forward.inputs, **problem.forward.columns_of([law])}
             check_usable(law, problem.forward.chain, inputs, "reading", kind.name)
         except InputError:
             continue
@@ -301,10 +299,6 @@ def _offered(
 def _has_range(name: str) -> bool:
     """Whether a variable is a single quantity, so that its range can be part of the file."""
     return re.fullmatch(r"\w+", name) is not None
-
-
-def _columns(case: Case) -> list[str]:
-    return [c.name for c in (*BOOKKEEPING, *case.kind.columns) if c.dtype == "number"]
 
 
 def _with_laws(problem: Problem, laws: Mapping[str, Effect]) -> Problem:
