@@ -19,8 +19,8 @@ from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Chain, Model, Parameters, Record, available
 from mixedlub.chain.ranges import beyond
 from mixedlub.effects import known_effects, known_in
-from mixedlub.kinds.history import histories
 from mixedlub.kinds.calibration import Calibration, calibrations, of_base_law, of_parameter
+from mixedlub.kinds.history import histories
 from mixedlub.kinds.kind import ageing, varies
 from mixedlub.own_laws import check_usable, columns_read, pasts_read
 from mixedlub.schema.findings import collected

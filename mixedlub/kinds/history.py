@@ -9,7 +9,6 @@ from functools import cached_property
 import numpy as np
 
 from mixedlub.kinds.acceleration import stretches
-from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.past import BEFORE, CLOCKS, DIRECTION, MEMORY, SINCE, Past
 from mixedlub.schema.table import Table
 
@@ -110,6 +109,9 @@ class Programme:
                     before, changed = level, t if self.stepped else moved
                 level, direction, moved = x, sense, t
             found[:, i] = level, direction, before, changed
+        if not self.stepped and found[1].any():
+            # A sweep moves from its first reading on.
+            found[1][: np.flatnonzero(found[1])[0]] = found[1][np.flatnonzero(found[1])[0]]
         return Line(clock, values, *found, order)
 
 

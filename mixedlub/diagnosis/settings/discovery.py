@@ -30,6 +30,9 @@ WIDTH_SPREAD = 0.7
 WIDTH_MEDIAN = 0.15
 """Judgement. Median width of a step or a resonance as a share of the range."""
 
+FADING_SPREAD = 1.5
+"""Judgement. Standard deviation of the logarithm of a time constant: from a few readings to the whole recording."""
+
 # Search
 SCREENED_ROWS = 300
 """Cost limit. Readings on which terms are screened."""
