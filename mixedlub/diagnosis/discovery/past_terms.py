@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from mixedlub.diagnosis.discovery.terms import Term, Variable, bounded_terms, single_terms
 from mixedlub.diagnosis.discrepancy.past import fading_times, remembered_in
 from mixedlub.diagnosis.search.search import Search
-from mixedlub.diagnosis.settings.discovery import FADING_SPREAD
+from mixedlub.diagnosis.settings.discovery import FADING_NEAR, FADING_SPREAD
 from mixedlub.kinds.history import order_of
 from mixedlub.recording.conditions import is_temperature
 from mixedlub.schema.past import BEFORE, DIRECTION, MEMORY, SINCE, Past
@@ -21,9 +22,12 @@ SECONDS = "s"
 
 
 def past_variables(search: Search) -> dict[Past, Variable]:
-    """History coordinates that the recording can show."""
-    forward = search.problem.forward
-    pasts = list(dict.fromkeys(one.past for one in remembered_in(search.space, search.values, forward)))
+    """History coordinates that the recording can show; if the discrepancy is a memory, with fading times near it."""
+    forward, best = search.problem.forward, search.discrepancy.best.past
+    pasts = [one.past for one in remembered_in(search.space, search.values, forward)]
+    if best is not None and best.past.what == MEMORY:
+        pasts += [replace(best.past, fading=float(f"{best.past.fading * ratio:.2g}")) for ratio in FADING_NEAR]
+    pasts = list(dict.fromkeys(pasts))
     found = forward.histories(pasts)
     return {past: Variable(past.name, found[past.name]) for past in pasts}
 

@@ -174,7 +174,7 @@ def _sums(
         kinds: set[str] = set()
         for k in np.argsort(-score, kind="stable"):
             own_kind = f"{terms[k].shape} {terms[k].variables}"
-            if own_kind not in kinds:
+            if own_kind not in kinds and (k != i or terms[k].start):
                 kinds.add(own_kind)
                 both = (terms[i].numbered(1), terms[k].numbered(2))
                 found.append(Candidate(t, both, (float(amplitude[i]), float(second[k])), float(score[k])))

@@ -79,7 +79,8 @@ class Variable:
 class Term:
     """A function of one or two variables without its amplitude: text with numbered parameters, and values.
 
-    ``start`` holds the parameters of the text, ``priors`` their prior: a kind and two numbers, ``units`` those with one.
+    ``start`` holds the parameters of the text, ``priors`` their prior: a kind and two numbers, ``units`` their unit if
+    any.
     """
 
     shape: str
