@@ -20,10 +20,10 @@ from mixedlub.chain.model import Chain, Model, Parameters, Record, available
 from mixedlub.chain.ranges import beyond
 from mixedlub.effects import known_effects, known_in
 from mixedlub.kinds.calibration import Calibration, calibrations, of_base_law, of_parameter
-from mixedlub.kinds.history import histories
+from mixedlub.kinds.history import assumed, histories
 from mixedlub.kinds.kind import ageing, varies
 from mixedlub.own_laws import check_usable, columns_read, pasts_read
-from mixedlub.schema.findings import collected
+from mixedlub.schema.findings import Finding, collected, report
 from mixedlub.schema.past import Past
 from mixedlub.schema.table import Table
 from profiles.errors import InputError, nearest
@@ -132,12 +132,22 @@ class Forward:
         """Columns of the rows that laws read, and the history of conditions, as inputs."""
         laws = tuple(laws)
         pasts = pasts_read(laws, self.case.kind.numbers)
+        note = self.assumed_history(pasts)
+        if note is not None:
+            report(note)
         return columns_read(laws, {**self.table.columns, **self.histories(pasts)})
 
     def histories(self, pasts: Iterable[Past]) -> dict[str, np.ndarray]:
         """History coordinates of the rows by name, within the recording of the case."""
-        recorded = self.table if self.case.recordings is None else self.case.recordings
-        return histories(pasts, self.table, recorded, self.case.kind.is_history)
+        return histories(pasts, self.table, self._recorded, self.case.kind.is_history)
+
+    def assumed_history(self, pasts: Iterable[Past]) -> Finding | None:
+        """Report what history rows beside the recording have."""
+        return assumed(pasts, self.table, self._recorded, self.case.kind.is_history)
+
+    @property
+    def _recorded(self) -> Table:
+        return self.table if self.case.recordings is None else self.case.recordings
 
     def _add(self, missing: MissingPart) -> None:
         """Make a table of the missing part an effect of the base model."""

@@ -61,6 +61,7 @@ from mixedlub.diagnosis.settings.assessment import FALSE_ALARM_RATE, LEVELS
 from mixedlub.diagnosis.settings.discovery import EQUIVALENT_WITHIN
 from mixedlub.diagnosis.settings.inference import LIKELY
 from mixedlub.effects import find
+from mixedlub.own_laws import pasts_read
 from mixedlub.recording.readings import readings_of, rows_of
 from mixedlub.schema.findings import Finding, collected, finding
 from mixedlub.schema.table import Table
@@ -283,6 +284,7 @@ def _diagnosis_of(
     if test.detected:
         at_base = search.problem.single_reading_units(search.null_fit.residual)
         warnings += mismatch_at_steps(rows, [c.name for c in columns], at_base)
+    warnings += _history_notes(search, decided, law, new_model) if new_rows is not None else []
     all_warnings = tuple(warnings)
     return Diagnosis(
         given,
@@ -305,6 +307,16 @@ def _diagnosis_of(
         faulty=left,
         law=law,
     )
+
+
+def _history_notes(search: Search, judged: Posterior, law: FoundLaw | None, new_model: Forward) -> list[Finding]:
+    """Report what history the rows to predict have, where the answer depends on it."""
+    if not judged.verdict.is_discrepancy:
+        return []
+    past = search.discrepancy.best.past
+    read = [] if law is None else pasts_read([law.effect], new_model.case.kind.numbers)
+    note = new_model.assumed_history([*read, *([] if past is None else [past.past])])
+    return [] if note is None else [note]
 
 
 def _cautions(

@@ -9,8 +9,10 @@ from functools import cached_property
 import numpy as np
 
 from mixedlub.kinds.acceleration import stretches
+from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.past import BEFORE, CLOCKS, DIRECTION, MEMORY, SINCE, Past
 from mixedlub.schema.table import Table
+from mixedlub.schema.units import without_unit
 
 NEAR_SIZE, NEAR_SPAN = 0.015, 0.005
 """Judgement. Change that is none, as a share of the value and of the whole span: controllers let a value vary so."""
@@ -230,6 +232,34 @@ def _steady(past: Past, values: np.ndarray, programme: Programme | None) -> np.n
     return np.full(values.size, long) if past.what == SINCE else values.copy()
 
 
+@dataclass(frozen=True, eq=False)
+class _Places:
+    """Where the rows of a table stand in a recording: index of the recorded row or -1, and rows that go on from it.
+
+    ``own``: the new rows are a programme of their own. Other new rows have no order.
+    """
+
+    known: np.ndarray
+    following: np.ndarray
+    own: bool
+
+    @classmethod
+    def of(cls, order: Order, table: Table, recorded: Table, by_run: bool) -> _Places:
+        """The places by run number and by the column that orders the recording."""
+        place = {run: row for row, run in enumerate(recorded["run"].tolist())} if "run" in recorded else {}
+        known = np.array([place.get(run, -1) for run in table["run"].tolist()] if place else [-1] * len(table), int)
+        if order.name not in table:
+            return cls(np.full(len(table), -1), np.zeros(0, int), False)
+        clock = np.asarray(table[order.name], float)
+        known[(known >= 0) & (order.clock[known] != clock)] = -1
+        new = np.flatnonzero(known < 0)
+        if new.size > 1 and clock[new].min() <= order.clock.min():
+            return cls(known, np.zeros(0, int), order_of(table.take(new), by_run) is not None)
+        times, count = np.unique(clock[new], return_counts=True)
+        alone = ~np.isin(clock[new], [*times[count > 1], *order.clock])
+        return cls(known, new[alone], False)
+
+
 def _placed(
     programme: Programme, table: Table, recorded: Table, by_run: bool
 ) -> list[tuple[Line, np.ndarray, np.ndarray]]:
@@ -238,31 +268,43 @@ def _placed(
     if table is recorded:
         rows = [np.flatnonzero(order.part == k) for k in range(len(programme.lines))]
         return [(line, own, np.arange(own.size)) for line, own in zip(programme.lines, rows, strict=True)]
-    place = dict(zip(recorded["run"].tolist(), range(len(recorded)), strict=True)) if "run" in recorded else {}
-    if order.name not in table:
-        return []
-    clock, values = np.asarray(table[order.name], float), np.asarray(table[programme.column], float)
-    known = np.array([place.get(run, -1) for run in table["run"].tolist()] if place else [-1] * len(table))
-    known[(known >= 0) & (order.clock[known] != clock)] = -1
-    found = []
+    places, found = _Places.of(order, table, recorded, by_run), []
+    known = places.known
     for k in np.unique(order.part[known[known >= 0]]):
-        rows = np.flatnonzero((known >= 0) & (order.part[known] == k))
-        found.append((programme.lines[k], rows, np.searchsorted(np.flatnonzero(order.part == k), known[rows])))
-    new = np.flatnonzero(known < 0)
-    alone = np.array([(clock == t).sum() == 1 and t not in order.clock for t in clock[new]], bool)
-    if not new.size:
+        here = np.flatnonzero((known >= 0) & (order.part[known] == k))
+        found.append((programme.lines[k], here, np.searchsorted(np.flatnonzero(order.part == k), known[here])))
+    if order.name not in table:
         return found
-    if new.size > 1 and clock[new].min() <= order.clock.min():
-        own = order_of(table.take(new), by_run)
-        if own is not None:
-            found.append((programme.line(clock[new], values[new]), new, np.arange(new.size)))
-        return found
-    new = new[alone]
+    clock, values = np.asarray(table[order.name], float), np.asarray(table[programme.column], float)
+    if places.own:
+        new = np.flatnonzero(known < 0)
+        return [*found, (programme.line(clock[new], values[new]), new, np.arange(new.size))]
     last = order.part == order.part[-1]
-    for rows in [new[clock[new] > order.clock.max()], *([row] for row in new[clock[new] <= order.clock.max()])]:
-        if len(rows):
-            size = int(last.sum())
-            times = np.concatenate([order.clock[last], clock[rows]])
-            line = programme.line(times, np.concatenate([programme.values[last], values[rows]]))
-            found.append((line, np.asarray(rows), np.arange(size, size + len(rows))))
+    late = clock[places.following] > order.clock.max()
+    size = int(last.sum())
+    for here in [places.following[late], *places.following[~late][:, None]]:
+        times, all_values = (
+            np.concatenate([a[last], b[here]]) for a, b in ((order.clock, clock), (programme.values, values))
+        )
+        found.append((programme.line(times, all_values), here, np.arange(size, size + here.size)))
     return found
+
+
+def assumed(pasts: Iterable[Past], table: Table, recorded: Table, by_run: bool = False) -> Finding | None:
+    """Report what history the rows of another table have; None for recorded rows, and where no history is read."""
+    words = ", ".join(dict.fromkeys(without_unit(past.column).replace("_", " ") for past in pasts))
+    order = order_of(recorded, by_run)
+    if not words or table is recorded or order is None:
+        return None
+    places = _Places.of(order, table, recorded, by_run)
+    new = int((places.known < 0).sum())
+    following = places.following.size
+    if not new:
+        return None
+    if places.own:
+        how = f"the rows are a programme of their own, in the order of {order.name}"
+    elif following == new:
+        how = f"each row goes on from the reading before it, by {order.name}"
+    else:
+        how = f"{new - following} of {new} rows have no place in the recording by {order.name}: long after any change"
+    return finding("history_assumed", f"the result depends on the history of {words}: {how}", table.source)
