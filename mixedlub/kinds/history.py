@@ -114,7 +114,7 @@ class Programme:
         if not self.stepped and found[1].any():
             # A sweep moves from its first reading on.
             found[1][: np.flatnonzero(found[1])[0]] = found[1][np.flatnonzero(found[1])[0]]
-        return Line(clock, values, *found, order)
+        return Line(clock, values, found[0], found[1], found[2], found[3], order)
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import combinations
 
 import numpy as np
 
@@ -108,49 +107,43 @@ def _distinct(found: dict[Remembered, np.ndarray]) -> dict[Remembered, np.ndarra
 
 @dataclass(frozen=True, eq=False)
 class _Present:
-    """Directions of sums of functions of each condition, and combinations of levels of several that came back."""
+    """Directions of sums of functions of each present condition, and the combination of levels of each reading."""
 
     directions: np.ndarray
-    cells: list[np.ndarray]
+    cell: np.ndarray
 
     @classmethod
     def of(cls, space: Coordinates, values: list[np.ndarray]) -> _Present:
-        """The present conditions of a recording, without its clock."""
-        count = values[0].size if values else 0
-        blocks, labels = [np.ones((count, 1))], []
+        """The present conditions of a recording, without its clock; wide sweeps have as many levels as NODES."""
+        count = values[0].size
+        blocks, cell = [np.ones((count, 1))], np.zeros(count, int)
         for axis, own in zip(space.axes, values, strict=True):
             if axis.name in (*PASSING, DERIVED):
                 continue
             levels, label = np.unique(set_points(own), return_inverse=True)
             if levels.size <= NODES or axis.named:
-                labels.append(label)
                 blocks.append((label[:, None] == np.arange(levels.size - 1)).astype(float))
             else:
                 blocks.append(axis.functions(own, SMOOTH_LENGTHS[0]))
+                label = np.minimum((NODES * axis.scale(own)).astype(int), NODES - 1)
+            cell = np.unique(cell * (int(label.max()) + 1) + label, return_inverse=True)[1]
         vectors, size, _ = np.linalg.svd(np.hstack(blocks), full_matrices=False)
-        cells = []
-        for number in range(2, len(labels) + 1):
-            for some in combinations(labels, number):
-                mixed = some[0]
-                for label in some[1:]:
-                    mixed = mixed * (int(label.max()) + 1) + label
-                cell = np.unique(mixed, return_inverse=True)[1]
-                if 2 * int((np.bincount(cell)[cell] > 1).sum()) > count:
-                    cells.append(cell)
-        return cls(vectors[:, size > DEPENDENT * size.max(initial=0.0)], cells)
+        return cls(vectors[:, size > DEPENDENT * size.max(initial=0.0)], cell)
 
     def explains(self, factor: np.ndarray) -> bool:
-        """Whether present conditions explain most of the variance of a history coordinate."""
-        left = factor - self.directions @ (self.directions.T @ factor)
-        if _explained(factor, left, self.directions.shape[1]):
+        """Whether present conditions explain most of the variance of a history coordinate.
+
+        A matrix in which conditions hardly ever come back cannot tell.
+        """
+        times = np.bincount(self.cell)
+        again = times[self.cell] > 1
+        if 2 * int(again.sum()) < factor.size:
             return True
-        for cell in self.cells:
-            times = np.bincount(cell)
-            mean = np.bincount(cell, weights=factor) / times
-            again = times[cell] > 1
-            if _explained(factor[again], (factor - mean[cell])[again], int((times > 1).sum())):
-                return True
-        return False
+        mean = np.bincount(self.cell, weights=factor) / np.maximum(times, 1)
+        if _explained(factor[again], (factor - mean[self.cell])[again], int((times > 1).sum())):
+            return True
+        left = factor - self.directions @ (self.directions.T @ factor)
+        return _explained(factor, left, self.directions.shape[1])
 
 
 def _explained(factor: np.ndarray, left: np.ndarray, rank: int) -> bool:

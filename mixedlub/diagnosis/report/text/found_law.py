@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import number, words_of
 from mixedlub.diagnosis.report.text.answer import law_record
@@ -18,10 +20,7 @@ def found_law(d: Diagnosis) -> tuple[str, ...]:
         if not d.posterior.verdict.is_discrepancy:
             return ()
         return ("No law acting in the model was found that predicts left-out levels better than calibration.",)
-    values = ", ".join(
-        f"{p['name']} {number(p['value'])}{'' if p['unit'] == '-' else ' ' + p['unit']} (90 % {number(p['low90'])} to {number(p['high90'])})"
-        for p in law["parameters"]
-    )
+    values = ", ".join(map(_value, law["parameters"]))
     said = [
         f"Law found in the model, empirical: {_how(law)}, {law['expression']}, with {values}. On left-out levels the "
         f"error falls from {law['heldout_before']:.2f} to {law['heldout_after']:.2f} sigma."
@@ -32,6 +31,12 @@ def found_law(d: Diagnosis) -> tuple[str, ...]:
         others = "; ".join(f"{_how(rival)}, {rival['expression']}" for rival in alike[:MOST_SIMILAR])
         said.append(f"These readings cannot tell it from {others}.")
     return tuple(said)
+
+
+def _value(p: dict[str, Any]) -> str:
+    """A parameter with its unit and interval."""
+    unit = "" if p["unit"] == "-" else f" {p['unit']}"
+    return f"{p['name']} {number(p['value'])}{unit} (90 % {number(p['low90'])} to {number(p['high90'])})"
 
 
 def _how(law: dict[str, str]) -> str:
