@@ -16,8 +16,8 @@ from mixedlub.schema.units import without_unit
 
 NEAR_SIZE, NEAR_SPAN = 0.015, 0.005
 """Judgement. Change that is none, as a share of the value and of the whole span: controllers let a value vary so."""
-SCATTER = 4.0
-"""Judgement. Standard deviations of a logged value within which it has not changed."""
+SCATTER = 6.0
+"""Judgement. Standard deviations of a logged value within which it has not changed: four of a difference of two."""
 MOST_SCATTER = 0.05
 """Judgement. Scatter as a share of the span above which a value jumps between readings rather than scatters."""
 CLEAR_JUMP = 2.0
@@ -61,14 +61,15 @@ def order_of(table: Table, by_run: bool = False) -> Order | None:
     >>> order_of(Table({"run": np.arange(3), "sequence": np.ones(3)})), order_of(Table({"run": np.arange(3)}))
     (None, None)
     """
-    names = [n for n in ("time_s", "sequence", *(("run",) if by_run else ())) if n in table]
-    name = next((n for n in names if 2 * np.unique(table[n]).size > len(table)), None)
-    if name is None:
-        return None
-    part = stretches(table) if name == "time_s" else np.zeros(len(table), int)
-    if part[-1] + 1 > max(1.0, FALLS_BACK * len(table)):
-        part = np.zeros(len(table), int)
-    return Order(name, np.asarray(table[name], float), part)
+    for name in ("time_s", "sequence", *(("run",) if by_run else ())):
+        if name not in table:
+            continue
+        clock, part = np.asarray(table[name], float), np.zeros(len(table), int)
+        if name == "time_s" and stretches(table)[-1] + 1 <= FALLS_BACK * len(table):
+            part = stretches(table)
+        if 2 * len(set(zip(part.tolist(), clock.tolist(), strict=True))) > len(table):
+            return Order(name, clock, part)
+    return None
 
 
 @dataclass(frozen=True, eq=False)
