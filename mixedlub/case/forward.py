@@ -68,6 +68,7 @@ class Forward:
             reading_scale = float(Forward(case, recorded).inputs["reading_scale"])
         with collected() as notes:
             self.table = table = case.kind.fill_channels(table, recorded)
+            self._histories: dict[str, np.ndarray] = {}
             self.inputs: dict[str, Any] = case.kind.inputs(case.system, case.rig, table, recorded)
             if "sequence" in self.inputs:
                 self.inputs["ageing"] = ageing(recorded, self.inputs["sequence"])
@@ -139,7 +140,10 @@ class Forward:
 
     def histories(self, pasts: Iterable[Past]) -> dict[str, np.ndarray]:
         """History coordinates of the rows by name, within the recording of the case."""
-        return histories(pasts, self.table, self._recorded, self.case.kind.is_history)
+        pasts = tuple(pasts)
+        new = [past for past in pasts if past.name not in self._histories]
+        self._histories |= histories(new, self.table, self._recorded, self.case.kind.is_history)
+        return {past.name: self._histories[past.name] for past in pasts if past.name in self._histories}
 
     def assumed_history(self, pasts: Iterable[Past]) -> Finding | None:
         """Report what history rows beside the recording have."""

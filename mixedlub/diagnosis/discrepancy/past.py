@@ -89,6 +89,7 @@ def remembered_in(space: Coordinates, values: list[np.ndarray], forward: Forward
             *(Remembered(Past(axis.name, MEMORY, unit, time)) for time in times),
             *(Remembered(Past(axis.name, MEMORY, unit, time), instead=True) for time in times),
         ]
+        forward.histories(one.past for one in tried)
         for one in tried:
             factor = one.factor(space, forward)
             if np.std(factor) > LEAST_PAST and not present.explains(factor):
