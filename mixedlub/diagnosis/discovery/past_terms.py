@@ -74,7 +74,7 @@ def _relaxations(search: Search, since: Variable, sense: Variable | None, clock:
 
 
 def _difference(past: Variable, present: Variable) -> Term:
-    """What a condition was over what it is; of signed numbers and temperatures the difference over a round range."""
+    """Past over present condition; of signed numbers and temperatures the difference over a round range."""
     names = (past.text, present.text)
     if past.positive and present.positive and not is_temperature(present.text):
         return Term("power", names, f"log({past.text}/{present.text})", {}, {}, np.log(past.values / present.values))

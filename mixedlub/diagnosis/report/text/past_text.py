@@ -7,11 +7,10 @@ import re
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.discrepancy.past import Remembered
 from mixedlub.diagnosis.labels import amount, words_of
+from mixedlub.diagnosis.settings.report import FADED
 from mixedlub.schema.past import BEFORE, DIRECTION, MEMORY, SINCE, Past, past_of
 
 SHARE, READINGS = "share", "readings"
-FADED = 3.0
-"""Definition. Time constants after which a decay is gone, to 5 %."""
 
 
 def duration(time: float, clock: str) -> str:
