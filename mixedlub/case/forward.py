@@ -146,7 +146,7 @@ class Forward:
         return {past.name: self._histories[past.name] for past in pasts if past.name in self._histories}
 
     def assumed_history(self, pasts: Iterable[Past]) -> Finding | None:
-        """Report what history rows beside the recording have."""
+        """Report the history that rows beside the recording are given."""
         return assumed(pasts, self.table, self._recorded, self.case.kind.is_history)
 
     @property

@@ -310,7 +310,7 @@ def _diagnosis_of(
 
 
 def _history_notes(search: Search, judged: Posterior, law: FoundLaw | None, new_model: Forward) -> list[Finding]:
-    """Report what history the rows to predict have, where the answer depends on it."""
+    """Report the history that the rows to predict are given, where the answer depends on one."""
     if not judged.verdict.is_discrepancy:
         return []
     past = search.discrepancy.best.past

@@ -292,7 +292,7 @@ def _placed(
 
 
 def assumed(pasts: Iterable[Past], table: Table, recorded: Table, by_run: bool = False) -> Finding | None:
-    """Report what history the rows of another table have; None for recorded rows, and where no history is read."""
+    """Report the history that rows of another table are given; None for recorded rows, and where no history is read."""
     words = ", ".join(dict.fromkeys(without_unit(past.column).replace("_", " ") for past in pasts))
     order = order_of(recorded, by_run)
     if not words or table is recorded or order is None:

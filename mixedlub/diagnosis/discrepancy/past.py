@@ -68,7 +68,7 @@ def fading_times(order: Order) -> tuple[float, ...]:
 def remembered_in(space: Coordinates, values: list[np.ndarray], forward: Forward) -> dict[Remembered, np.ndarray]:
     """History coordinates that a recording can show, with their values.
 
-    Left out are those of conditions in random order, and those that are a function of present conditions.
+    Left out are histories of conditions in random order, and functions of present conditions.
     """
     case = forward.case
     recorded = forward.table if case.recordings is None else case.recordings
@@ -98,7 +98,7 @@ def remembered_in(space: Coordinates, values: list[np.ndarray], forward: Forward
 
 
 def _distinct(found: dict[Remembered, np.ndarray]) -> dict[Remembered, np.ndarray]:
-    """Coordinates without those that an earlier one equals but for size."""
+    """Coordinates that differ from all earlier ones in more than size."""
     kept: dict[Remembered, np.ndarray] = {}
     for one, factor in found.items():
         if all(abs(np.corrcoef(factor, other)[0, 1]) < SAME_PAST for other in kept.values()):
