@@ -242,7 +242,7 @@ def _checked(
         if conditions is not None and recordings is not None:
             check_rows(found, system, folder, conditions, recordings)
         missing = _missing_part(folder, system, found)
-    effects, laws = by_id(system.effects, folder, _numbers(found))
+    effects, laws = by_id(system.effects, folder, found.numbers)
     rig = Rig(system, folder, found.unread_of_oil)
     if system.base != "formulas":
         from mixedlub.case.full_base import refuse
@@ -267,14 +267,9 @@ def _checked(
 def with_hypotheses(case: Case, paths: Sequence[str | Path]) -> Case:
     """The case with further law files that compete with the catalogue."""
     files = [as_path(one, "hypotheses") for one in paths]
-    rivals = {name: as_hypothesis(law) for name, law in read_laws(files, _numbers(case.kind)).items()}
+    rivals = {name: as_hypothesis(law) for name, law in read_laws(files, case.kind.numbers).items()}
     laws = distinct([*case.laws.values(), *rivals.values()])
     return replace(case, laws=laws, hypotheses=(*case.hypotheses, *rivals))
-
-
-def _numbers(found: Kind) -> list[str]:
-    """Columns of conditions that are numbers."""
-    return [c.name for c in (*BOOKKEEPING, *found.columns) if c.dtype == "number"]
 
 
 def _missing_part(folder: Path, system: system_file.System, found: Kind) -> MissingPart | None:

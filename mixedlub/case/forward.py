@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -20,9 +20,11 @@ from mixedlub.chain.model import Chain, Model, Parameters, Record, available
 from mixedlub.chain.ranges import beyond
 from mixedlub.effects import known_effects, known_in
 from mixedlub.kinds.calibration import Calibration, calibrations, of_base_law, of_parameter
+from mixedlub.kinds.history import assumed, histories
 from mixedlub.kinds.kind import ageing, varies
-from mixedlub.own_laws import check_usable, columns_read
-from mixedlub.schema.findings import collected
+from mixedlub.own_laws import check_usable, columns_read, pasts_read
+from mixedlub.schema.findings import Finding, collected, report
+from mixedlub.schema.past import Past
 from mixedlub.schema.table import Table
 from profiles.errors import InputError, nearest
 
@@ -66,11 +68,12 @@ class Forward:
             reading_scale = float(Forward(case, recorded).inputs["reading_scale"])
         with collected() as notes:
             self.table = table = case.kind.fill_channels(table, recorded)
+            self._histories: dict[str, np.ndarray] = {}
             self.inputs: dict[str, Any] = case.kind.inputs(case.system, case.rig, table, recorded)
             if "sequence" in self.inputs:
                 self.inputs["ageing"] = ageing(recorded, self.inputs["sequence"])
             extra = case.kind.extra_calibration(case.system, recorded)
-            self.inputs |= columns_read(case.laws.values(), table.columns)
+            self.inputs |= self.columns_of(case.laws.values())
             formulas = case.kind.chain(case.system, table)
             self.base = self._based(formulas)
         self.notes = tuple(notes)
@@ -121,10 +124,34 @@ class Forward:
         """The same rows of a case that has further laws."""
         found = copy(self)
         found.case = case
-        found.inputs = {**self.inputs, **columns_read(case.laws.values(), self.table.columns)}
+        found.inputs = {**self.inputs, **self.columns_of(case.laws.values())}
         found.catalogue = MappingProxyType({**self.catalogue, **case.laws})
         found._model = lru_cache(maxsize=1024)(found._build)
         return found
+
+    def columns_of(self, laws: Iterable[Effect]) -> dict[str, Any]:
+        """Columns of the rows that laws read, and the history of conditions, as inputs."""
+        laws = tuple(laws)
+        pasts = pasts_read(laws, self.case.kind.numbers)
+        note = self.assumed_history(pasts)
+        if note is not None:
+            report(note)
+        return columns_read(laws, {**self.table.columns, **self.histories(pasts)})
+
+    def histories(self, pasts: Iterable[Past]) -> dict[str, np.ndarray]:
+        """History coordinates of the rows by name, within the recording of the case."""
+        pasts = tuple(pasts)
+        new = [past for past in pasts if past.name not in self._histories]
+        self._histories |= histories(new, self.table, self._recorded, self.case.kind.is_history)
+        return {past.name: self._histories[past.name] for past in pasts if past.name in self._histories}
+
+    def assumed_history(self, pasts: Iterable[Past]) -> Finding | None:
+        """Report the history that rows beside the recording are given."""
+        return assumed(pasts, self.table, self._recorded, self.case.kind.is_history)
+
+    @property
+    def _recorded(self) -> Table:
+        return self.table if self.case.recordings is None else self.case.recordings
 
     def _add(self, missing: MissingPart) -> None:
         """Make a table of the missing part an effect of the base model."""

@@ -60,6 +60,7 @@ from mixedlub.diagnosis.settings.assessment import FALSE_ALARM_RATE, LEVELS
 from mixedlub.diagnosis.settings.discovery import EQUIVALENT_WITHIN
 from mixedlub.diagnosis.settings.inference import LIKELY
 from mixedlub.effects import find
+from mixedlub.own_laws import pasts_read
 from mixedlub.recording.readings import readings_of, rows_of
 from mixedlub.schema.findings import Finding, collected, finding
 from mixedlub.schema.table import Table
@@ -282,6 +283,7 @@ def _diagnosis_of(
     if test.detected:
         at_base = search.problem.single_reading_units(search.null_fit.residual)
         warnings += mismatch_at_steps(rows, [c.name for c in columns], at_base)
+    warnings += _history_notes(search, decided, law, new_model) if new_rows is not None else []
     all_warnings = tuple(warnings)
     return Diagnosis(
         given,
@@ -304,6 +306,16 @@ def _diagnosis_of(
         faulty=left,
         law=law,
     )
+
+
+def _history_notes(search: Search, judged: Posterior, law: FoundLaw | None, new_model: Forward) -> list[Finding]:
+    """Report the history that the rows to predict are given, where the answer depends on one."""
+    if not judged.verdict.is_discrepancy:
+        return []
+    past = search.discrepancy.best.past
+    read = [] if law is None else pasts_read([law.effect], new_model.case.kind.numbers)
+    note = new_model.assumed_history([*read, *([] if past is None else [past.past])])
+    return [] if note is None else [note]
 
 
 def _cautions(

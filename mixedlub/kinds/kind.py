@@ -15,7 +15,7 @@ from mixedlub.kinds.standard import StandardRig
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file
-from mixedlub.schema.table import Column, Table
+from mixedlub.schema.table import BOOKKEEPING, Column, Table
 
 Inputs = dict[str, Any]
 CONSTANT_WITHIN = 0.02
@@ -106,6 +106,11 @@ class Kind:
         """The rows at other values of a condition, without the channels that follow from it."""
         kept = {column: cells for column, cells in table.columns.items() if column not in self.filled}
         return Table({**kept, name: values}, table.source)
+
+    @property
+    def numbers(self) -> tuple[str, ...]:
+        """Columns of conditions that are numbers."""
+        return tuple(c.name for c in (*BOOKKEEPING, *self.columns) if c.dtype == "number")
 
     @property
     def effect_kind(self) -> str:

@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 from mixedlub.chain.effect import Effect
 from mixedlub.own_laws.law import FileLaw, as_hypothesis, law_of_text, read_law
 from mixedlub.own_laws.usable import ABSENT, check_usable
+from mixedlub.schema.past import Past
 from mixedlub.schema.toml_file import named_file
 from profiles.errors import InputError
 
@@ -59,6 +60,12 @@ def text_of(law: Effect) -> str:
     return law.law.text
 
 
+def pasts_read(laws: Iterable[Effect], columns: Collection[str]) -> list[Past]:
+    """History coordinates of the columns that laws read."""
+    found = [law.law.pasts(columns) for law in laws if isinstance(law.law, FileLaw)]
+    return list(dict.fromkeys(past for own in found for past in own))
+
+
 def columns_read(laws: Iterable[Effect], rows: Mapping[str, Any]) -> dict[str, Any]:
     """Columns of a recording that laws read as recorded, as inputs of the shape (rows, 1)."""
     return {
@@ -81,6 +88,7 @@ __all__ = [
     "columns_read",
     "distinct",
     "law_of_text",
+    "pasts_read",
     "path_of",
     "read_law",
     "read_laws",

@@ -19,6 +19,7 @@ from mixedlub.effects import catalogue
 from mixedlub.expressions import Call, Expression, parse
 from mixedlub.expressions.latex import latex, symbol_in_latex
 from mixedlub.own_laws.file import LawFile, LawParameter
+from mixedlub.schema.past import Past, past_of
 from mixedlub.schema.toml_file import parse as parse_toml
 from mixedlub.schema.toml_file import read_toml
 from mixedlub.schema.units import ENDINGS, dimension, ending_of, tidy, to_si, without_unit
@@ -70,6 +71,11 @@ class FileLaw:
         }
         own |= {name: unit.factor * values[name] + unit.added for name, unit in self.units.items()}
         return self.expression.evaluate(own)
+
+    def pasts(self, columns: Collection[str]) -> list[Past]:
+        """History coordinates of the columns that the law reads."""
+        found = (past_of(read.argument, columns) for read in self.reads.values())
+        return [past for past in found if past is not None]
 
     def __call__(self, *quantities: Any, **values: float) -> Any:
         """The changed quantity."""
@@ -151,12 +157,12 @@ class _Names(Collection[str]):
 
 
 def _read(name: str, columns: Collection[str]) -> Read | None:
-    """How a name is read: a quantity in SI, a column as recorded, or a quantity in the unit behind its name.
+    """How a name is read: a quantity in SI, a column or its history as recorded, or a quantity in the unit behind it.
 
     >>> _read("load", ()), _read("speed_rpm", ()).argument, round(_read("oil_temperature_C", ()).added, 2)
     (Read(argument='load', factor=1.0, added=0.0), 'pinion_speed', 273.15)
     """
-    if name in GLOSSARY or name in columns:
+    if name in GLOSSARY or name in columns or past_of(name, columns) is not None:
         return Read(name)
     quantity, unit = IN_OTHER_WORDS.get(without_unit(name), without_unit(name)), ENDINGS.get(ending_of(name), "")
     if quantity not in GLOSSARY or not unit or GLOSSARY[quantity].unit == "*":

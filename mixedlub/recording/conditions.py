@@ -168,10 +168,11 @@ def is_constant(name: str, values: np.ndarray) -> bool:
 
 def _absolute(name: str, values: np.ndarray) -> np.ndarray:
     """Values from an absolute zero: temperatures in kelvin."""
-    return values + ZERO_CELSIUS if _is_temperature(name) else values
+    return values + ZERO_CELSIUS if is_temperature(name) else values
 
 
-def _is_temperature(name: str) -> bool:
+def is_temperature(name: str) -> bool:
+    """Whether a column is a temperature."""
     return name.endswith("temperature_C")
 
 
@@ -200,7 +201,7 @@ def is_noisy_constant(name: str, values: np.ndarray) -> bool:
 
 def _noisy_span(name: str, size: float) -> float:
     """Largest span of a noisy constant of this size in absolute units."""
-    return (CONSTANT_WITHIN if _is_temperature(name) else NOISY_WITHIN) * size
+    return (CONSTANT_WITHIN if is_temperature(name) else NOISY_WITHIN) * size
 
 
 def noisy_set_point(name: str, values: np.ndarray) -> float | None:

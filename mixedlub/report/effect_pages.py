@@ -17,7 +17,7 @@ from mixedlub.chain.model import Model
 from mixedlub.chain.plain_text import entry
 from mixedlub.effects import catalogue, find
 from mixedlub.kinds import NATIVE, kind
-from mixedlub.own_laws import ABSENT, ENDING, check_usable, columns_read, read_law
+from mixedlub.own_laws import ABSENT, ENDING, check_usable, read_law
 from profiles.errors import InputError
 
 RIGS = NATIVE
@@ -165,7 +165,7 @@ def _own_page(path: Path) -> str:
     lines, unable = ["on the standard rig of each kind of recording, at the stated values"], []
     for rig in RIGS:
         forward = reference_rigs.forward(rig)
-        inputs = {**forward.inputs, **columns_read([law], forward.table.columns)}
+        inputs = {**forward.inputs, **forward.columns_of([law])}
         try:
             check_usable(law, forward.chain, inputs, "reading", rig.replace("_", " "))
         except InputError as error:

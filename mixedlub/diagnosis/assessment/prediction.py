@@ -10,7 +10,6 @@ from itertools import product
 import numpy as np
 
 from mixedlub.case.forward import Forward
-from mixedlub.diagnosis.discrepancy.modulated import scaling_of
 from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.inference.change_points import (
     ChangePointPosterior,
@@ -192,9 +191,8 @@ class NewRows:
         discrepancy, base = search.discrepancy, search.discrepancy.base
         run = self.problem.run(base.explanation, discrepancy.z)
         calibrated, slopes = run.prediction, self.problem.jacobian(base.explanation, discrepancy.z, run)
-        name = discrepancy.best.modulates
         at_base = self.problem.run(base.explanation, base.z)
-        scalings = {name: scaling_of(self.problem, at_base, discrepancy.typical, name)}
+        scalings = discrepancy.best.scalings_at(self.problem, at_base, discrepancy.typical, search.space)
         form = discrepancy.best.columns(search.space, self.values, scalings)
         shared = np.zeros((len(self.table), search.problem.shared.shape[1]))
         all_columns = np.hstack([slopes, shared, form])

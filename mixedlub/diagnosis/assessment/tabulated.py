@@ -110,7 +110,7 @@ def _nodes(search: Search, form: DiscrepancyForm, names: int) -> Nodes:
         for axis, values in zip(search.space.axes, search.values, strict=True)
         if not axis.named and axis.name != ROUGHNESS
     ]
-    if form.modulates == THERMAL_LAG:
+    if form.modulates == THERMAL_LAG or form.past is not None:
         clock = next((n for n in ("sequence", "time_s") if n in search.problem.rows), "")
         if clock:
             return {clock: np.unique(np.asarray(search.problem.rows[clock], float))}

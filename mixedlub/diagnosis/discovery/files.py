@@ -31,7 +31,7 @@ def law_data(name: str, c: Candidate, sizes: np.ndarray, ranges: Mapping[str, li
         parameters[letter] = _parameter(amplitude, {"normal": [0.0, sd]}, null)
         for own, start in term.start.items():
             kind, first, second = term.priors[own]
-            parameters[own] = _parameter(start, {kind: [first, second]}, None)
+            parameters[own] = _parameter(start, {kind: [first, second]}, None, term.units.get(own))
         text = term.text
         for own in term.start:
             text = text.replace(f"<{own}>", own)
@@ -71,8 +71,9 @@ def _as_factor(c: Candidate, parts: list[str]) -> str:
     return "*".join([*factors, *([f"exp({'+'.join(rest)})"] if rest else [])])
 
 
-def _parameter(value: float, prior: Mapping[str, Any], null: float | None) -> dict[str, Any]:
+def _parameter(value: float, prior: Mapping[str, Any], null: float | None, unit: str | None = None) -> dict[str, Any]:
     found: dict[str, Any] = {"value": float(value), "prior": dict(prior)}
+    found = found if unit is None else {"unit": unit, **found}
     return found if null is None else {**found, "null": null}
 
 

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from mixedlub.case.folder import Case
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.priors import LogNormal, Normal, Prior, Uniform
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut, LevelsOut
 from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.assessment.prediction import Refined, refine
 from mixedlub.diagnosis.discovery.files import LETTERS, as_effect, law_data
+from mixedlub.diagnosis.discovery.past_terms import past_terms, past_variables
 from mixedlub.diagnosis.discovery.screening import ADD, Candidate, Target, price, screened
 from mixedlub.diagnosis.discovery.terms import Variable, variables
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
@@ -37,10 +37,11 @@ from mixedlub.diagnosis.settings.discovery import (
     SAME_WITHIN,
 )
 from mixedlub.diagnosis.settings.inference import LIKELY
-from mixedlub.own_laws import check_usable, columns_read
+from mixedlub.own_laws import check_usable
 from mixedlub.recording.conditions import PASSING
 from mixedlub.running.parallel import shared_out
-from mixedlub.schema.table import BOOKKEEPING, Table
+from mixedlub.schema.past import past_of
+from mixedlub.schema.table import Table
 from profiles.errors import InputError
 
 NAME = "found_law"
@@ -106,7 +107,7 @@ class FoundLaw:
     @property
     def written(self) -> Effect:
         """The law as an effect, with the fitted values in its file."""
-        return as_effect({**self.data, "id": self.effect.id}, _columns(self.search.problem.case))
+        return as_effect({**self.data, "id": self.effect.id}, self.search.problem.case.kind.numbers)
 
     @property
     def posterior(self) -> Posterior:
@@ -118,10 +119,11 @@ class FoundLaw:
 def find_law(search: Search, levels: LevelsOut) -> FoundLaw | None:
     """The best law that predicts left-out levels clearly better than calibration; None if there is none."""
     full, search = search, search.full_screen
-    every = variables(search)
+    present, pasts = variables(search), past_variables(search)
+    every = [*present, *pasts.values()]
     if not every:
         return None
-    tried = [c for c in screened(search, every) if c.score > FIT_GAIN]
+    tried = [c for c in screened(search, present, past_terms(search, pasts)) if c.score > FIT_GAIN]
     if not tried:
         return None
     forms = _fitted(search, every, _kinds(tried, len(every)))
@@ -152,7 +154,7 @@ def find_law(search: Search, levels: LevelsOut) -> FoundLaw | None:
     )
     refined = {fit.explanation: refine(own_search, fit), NOTHING: refine(own_search, full.null_fit)}
     ranges = {
-        v.text: (float(v.values.min()), float(v.values.max())) for v in every if v.text in best.data["expression"]
+        v.text: (float(v.values.min()), float(v.values.max())) for v in present if v.text in best.data["expression"]
     }
     return FoundLaw(
         law,
@@ -279,8 +281,7 @@ def _offered(
     """The candidates as effects, without laws that cannot act in the chain."""
     problem = search.problem
     kind = problem.case.kind
-    columns = _columns(problem.case)
-    ranges = {v.text: [float(v.values.min()), float(v.values.max())] for v in every if _has_range(v.text)}
+    ranges = {v.text: [float(v.values.min()), float(v.values.max())] for v in every if _has_range(v.text, kind.numbers)}
     found: list[tuple[Effect, dict[str, Any], Candidate]] = []
     for c in leaders:
         number = before + len(found) + 1
@@ -289,8 +290,8 @@ def _offered(
         name = f"{stem}_{number}" if number > 1 else stem
         data = law_data(name, c, c.target.column, ranges)
         try:
-            law = as_effect(data, columns)
-            inputs = {**problem.forward.inputs, **columns_read([law], problem.rows.columns)}
+            law = as_effect(data, kind.numbers)
+            inputs = {**problem.forward.inputs, **problem.forward.columns_of([law])}
             check_usable(law, problem.forward.chain, inputs, "reading", kind.name)
         except InputError:
             continue
@@ -298,13 +299,9 @@ def _offered(
     return found
 
 
-def _has_range(name: str) -> bool:
-    """Whether a variable is a single quantity, so that its range can be part of the file."""
-    return re.fullmatch(r"\w+", name) is not None
-
-
-def _columns(case: Case) -> list[str]:
-    return [c.name for c in (*BOOKKEEPING, *case.kind.columns) if c.dtype == "number"]
+def _has_range(name: str, columns: Collection[str]) -> bool:
+    """Whether a variable is a single present quantity, so that its range can be part of the file."""
+    return re.fullmatch(r"\w+", name) is not None and past_of(name, columns) is None
 
 
 def _with_laws(problem: Problem, laws: Mapping[str, Effect]) -> Problem:

@@ -8,6 +8,7 @@ from itertools import combinations
 
 import numpy as np
 
+from mixedlub.diagnosis.discovery.past_terms import is_bounded, past_products
 from mixedlub.diagnosis.discovery.terms import Term, Variable, bounded_terms, single_terms
 from mixedlub.diagnosis.discrepancy.modulated import log_slope
 from mixedlub.diagnosis.inference.map_fit import whitening
@@ -105,13 +106,13 @@ def price(c: Candidate, count: int) -> float:
     return float(found)
 
 
-def screened(search: Search, every: Sequence[Variable]) -> list[Candidate]:
-    """Candidates by their log posterior over none, best first."""
+def screened(search: Search, every: Sequence[Variable], past: Sequence[Term] = ()) -> list[Candidate]:
+    """Candidates by their log posterior over none, best first; ``past``: terms of the history of conditions."""
     problem, base = search.problem, search.discrepancy.base
     rows = spread_rows(search.values, problem.y.size, SCREENED_ROWS)
     fixed = np.hstack([base.slopes, problem.shared])[rows]
     weight, target = search.discrepancy.fit.weight[rows], base.anchor[rows]
-    singles = [term for v in every for term in single_terms(v)]
+    singles = [*(term for v in every for term in single_terms(v)), *past]
     few = {v.text: bounded_terms(v) for v in every if v.text not in PASSING}
     products = [
         one.times(two)
@@ -119,8 +120,8 @@ def screened(search: Search, every: Sequence[Variable]) -> list[Candidate]:
         for one in first
         for two in second
         if set(one.variables).isdisjoint(two.variables)
-    ]
-    added = [term for terms in few.values() for term in terms]
+    ] + past_products(past, [v for v in every if v.text in few])
+    added = [*(term for terms in few.values() for term in terms), *filter(is_bounded, past)]
     flat = _constant(problem.y.size)
     found: list[Candidate] = []
     whitened = _Whitened(fixed, weight, target)
@@ -171,7 +172,7 @@ def _sums(
         kinds: set[str] = set()
         for k in np.argsort(-score, kind="stable"):
             own_kind = f"{terms[k].shape} {terms[k].variables}"
-            if own_kind not in kinds:
+            if own_kind not in kinds and (k != i or terms[k].start):
                 kinds.add(own_kind)
                 both = (terms[i].numbered(1), terms[k].numbered(2))
                 found.append(Candidate(t, both, (float(amplitude[i]), float(second[k])), float(score[k])))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -79,7 +79,8 @@ class Variable:
 class Term:
     """A function of one or two variables without its amplitude: text with numbered parameters, and values.
 
-    ``start`` holds the parameters of the text, and ``priors`` their prior: a kind and two numbers.
+    ``start`` holds the parameters of the text, ``priors`` their prior: a kind and two numbers, ``units`` their unit if
+    any.
     """
 
     shape: str
@@ -88,6 +89,7 @@ class Term:
     start: dict[str, float]
     priors: dict[str, tuple[str, float, float]]
     values: np.ndarray
+    units: dict[str, str] = field(default_factory=dict)
 
     def numbered(self, number: int) -> Term:
         """The term with its parameters marked by a number, so that two terms can stand together."""
@@ -96,7 +98,8 @@ class Term:
             text = text.replace(f"<{name}>", f"<{name}{mark}>")
         start = {f"{name}{mark}": value for name, value in self.start.items()}
         priors = {f"{name}{mark}": value for name, value in self.priors.items()}
-        return Term(self.shape, self.variables, text, start, priors, self.values)
+        units = {f"{name}{mark}": unit for name, unit in self.units.items()}
+        return replace(self, text=text, start=start, priors=priors, units=units)
 
     def times(self, other: Term) -> Term:
         """The product with a term of another variable."""
@@ -108,6 +111,7 @@ class Term:
             one.start | two.start,
             one.priors | two.priors,
             self.values * other.values,
+            one.units | two.units,
         )
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from mixedlub.diagnosis.discrepancy.boxes import clearest_box
 from mixedlub.diagnosis.discrepancy.modulated import ADDITIVE, READING, Scalings, TypicalSizes, scalings_of
+from mixedlub.diagnosis.discrepancy.past import remembered_in
 from mixedlub.diagnosis.discrepancy.screening import clearest, first_look
 from mixedlub.diagnosis.discrepancy.smooth import DiscrepancyForm, candidate_forms, most_flexible
 from mixedlub.diagnosis.inference.map_fit import Fit, Linear, covariance, damped_update, linear_fit, whitening
@@ -50,13 +51,14 @@ def fit_discrepancy(
     fixed = np.hstack([base.slopes, problem.shared])
     run = problem.run(base.explanation, base.z)
     typical = TypicalSizes.of(problem, run)
-    scalings = scalings_of(problem, run, typical)
+    pasts = remembered_in(space, values, problem.forward)
+    scalings = {**scalings_of(problem, run, typical), **{past.key: factor for past, factor in pasts.items()}}
 
     def columns_of(shape: DiscrepancyForm) -> np.ndarray:
         return shape.columns(space, values, scalings)
 
     weighed, clipped = [], first_look(target, fixed)
-    for family in candidate_forms(space, values, scalings, names):
+    for family in candidate_forms(space, values, scalings, names, pasts):
         if family[0].form == "smooth":
             reference = linear_fit(target, np.hstack([fixed, columns_of(most_flexible(space))]))
         else:
@@ -137,13 +139,14 @@ def _boxes(
 def _mean_over_shapes(tried: dict[DiscrepancyForm, float]) -> float:
     """Log mean evidence: half the prior on forms of the reading, half on forms within the chain, if any.
 
-    Within each half every kind of form (of all conditions, of one, of two, waves, local) has the same prior.
+    Within each half every kind of form (of all conditions, of one, of two, waves, local, history) has the same prior.
     """
     groups: dict[bool, dict[tuple[int, str], list[float]]] = {}
     for shape, value in tried.items():
         halves = groups.setdefault(shape.modulates in (READING, ADDITIVE), {})
         form = "local" if shape.at is not None else shape.form
-        halves.setdefault((len(shape.axes), form), []).append(value)
+        count = 0 if shape.past is not None else len(shape.axes)
+        halves.setdefault((count, form), []).append(value)
     return _log_mean([_log_mean([_log_mean(logs) for logs in half.values()]) for half in groups.values()])
 
 

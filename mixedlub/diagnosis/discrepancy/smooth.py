@@ -8,10 +8,21 @@ from itertools import combinations
 
 import numpy as np
 
+from mixedlub.case.forward import Run
 from mixedlub.diagnosis.discrepancy.boxes import Box, inside
 from mixedlub.diagnosis.discrepancy.local import Place, candidate_places, finer
-from mixedlub.diagnosis.discrepancy.modulated import ADDITIVE, READING, THERMAL_LAG, Scalings
+from mixedlub.diagnosis.discrepancy.modulated import (
+    ADDITIVE,
+    QUANTITIES,
+    READING,
+    THERMAL_LAG,
+    Scalings,
+    TypicalSizes,
+    scaling_of,
+)
+from mixedlub.diagnosis.discrepancy.past import Remembered
 from mixedlub.diagnosis.discrepancy.waves import CLOCK, frequencies
+from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.settings.discrepancy import (
     LOG_FACTOR_SIZES,
     READING_SIZES,
@@ -35,7 +46,8 @@ class DiscrepancyForm:
     """A form of the discrepancy: axes, correlation length, size, and modulated quantity.
 
     No axes mean all of them. A wave has ``waves`` periods along its axis. A peak or a step lies ``at`` a value of its
-    axis, and ``length`` is the width of the peak. A ``box`` is a range of each of its axes.
+    axis, and ``length`` is the width of the peak. A ``box`` is a range of each of its axes. With a ``past`` the form
+    is a history coordinate, times a smooth function of its axis if it has one.
     """
 
     axes: tuple[str, ...]
@@ -46,19 +58,22 @@ class DiscrepancyForm:
     waves: float = 0.0
     at: float | None = None
     box: Box = ()
+    past: Remembered | None = None
 
     @property
     def form(self) -> str:
         """Kind of function."""
         if self.modulates == THERMAL_LAG:
             return "delay"
+        if self.past is not None:
+            return "history"
         if self.box:
             return "box"
         return "wave" if self.waves else "smooth" if self.at is None else "peak" if self.length else "step"
 
     def columns(self, space: Coordinates, values: list[np.ndarray], scalings_of: Scalings) -> np.ndarray:
         """Columns of the form, in standard deviations."""
-        if self.modulates == THERMAL_LAG:
+        if self.modulates == THERMAL_LAG or (self.past is not None and not self.axes):
             columns = np.ones((values[0].size, 1))
         elif self.box:
             columns = inside(self.box, space, values).astype(float)[:, None]
@@ -70,7 +85,15 @@ class DiscrepancyForm:
             columns = space.axes[place].about(values[place], self.at, self.length)
         else:
             columns = space.columns(values, self.length, self.axes, self.interactions)
-        return self.size * columns * scalings_of[self.modulates][:, None]
+        times = scalings_of[self.modulates]
+        if self.past is not None:
+            times = times * scalings_of[self.past.key]
+        return self.size * columns * times[:, None]
+
+    def scalings_at(self, problem: Problem, base: Run, typical: TypicalSizes, space: Coordinates) -> Scalings:
+        """The scalings of the form in the rows of a problem."""
+        found = {self.modulates: scaling_of(problem, base, typical, self.modulates)}
+        return found if self.past is None else {**found, self.past.key: self.past.factor(space, problem.forward)}
 
     @property
     def sizes(self) -> tuple[float, ...]:
@@ -100,7 +123,11 @@ def most_flexible(space: Coordinates) -> DiscrepancyForm:
 
 
 def candidate_forms(
-    space: Coordinates, values: list[np.ndarray], scalings_of: Scalings, names: Collection[str]
+    space: Coordinates,
+    values: list[np.ndarray],
+    scalings_of: Scalings,
+    names: Collection[str],
+    pasts: Collection[Remembered] = (),
 ) -> list[list[DiscrepancyForm]]:
     """Candidate forms of size one, by family, without forms that are effects among ``names``."""
     waves = [DiscrepancyForm((CLOCK,), 0.0, 1.0, READING, False, waves=float(w)) for w in frequencies(space, values)]
@@ -112,7 +139,18 @@ def candidate_forms(
     ]
     peaks, steps = ([s for s in local if s.form == form] for form in ("peak", "step"))
     delay = [DiscrepancyForm((), 0.0, 1.0, THERMAL_LAG, False)] if THERMAL_LAG in scalings_of else []
-    return [family for family in (_smooth(space, scalings_of), waves, peaks, steps, delay) if family]
+    history = [
+        DiscrepancyForm(axes, SMOOTH_LENGTHS[-1], 1.0, modulated, False, past=past)
+        for past in pasts
+        for modulated in modulated_in(scalings_of)
+        for axes in ((), (past.past.column,))
+    ]
+    return [family for family in (_smooth(space, scalings_of), waves, peaks, steps, delay, history) if family]
+
+
+def modulated_in(scalings_of: Scalings) -> list[str]:
+    """The reading, the addition and the quantities of the chain among scalings."""
+    return [name for name in scalings_of if name in (READING, ADDITIVE, *QUANTITIES)]
 
 
 def _is_miscount(place: Place, carrier: str) -> bool:
@@ -123,7 +161,7 @@ def _smooth(space: Coordinates, scalings_of: Scalings) -> list[DiscrepancyForm]:
     names = [axis.name for axis in space.axes]
     forms = []
     for length in SMOOTH_LENGTHS:
-        for modulated in (name for name in scalings_of if name != THERMAL_LAG):
+        for modulated in modulated_in(scalings_of):
             forms.append(DiscrepancyForm((), length, 1.0, modulated, False))
             if len(names) == 1 and length == SMOOTH_LENGTHS[0]:
                 forms.append(DiscrepancyForm((), ROUGH_LENGTH, 1.0, modulated, False))

@@ -30,6 +30,11 @@ WIDTH_SPREAD = 0.7
 WIDTH_MEDIAN = 0.15
 """Judgement. Median width of a step or a resonance as a share of the range."""
 
+FADING_NEAR = (0.65, 0.8, 1.25, 1.55)
+"""Grid. Fading times of a memory over that of the discrepancy: steps between the times of the coarse grid."""
+FADING_SPREAD = 1.5
+"""Judgement. Standard deviation of the logarithm of a time constant: from a few readings to the whole recording."""
+
 # Search
 SCREENED_ROWS = 300
 """Cost limit. Readings on which terms are screened."""

@@ -42,6 +42,19 @@ BOX_SEEDS = 12
 BOX_SWEEPS = 6
 """Cost limit. Sweeps over the ranges of a box."""
 
+# History of conditions
+FADING_TIMES = 5
+"""Grid. Time constants of a decay or a memory: each about twice to three times the one before."""
+SHORTEST_FADING, SLOWEST_FADING = 2.0, 0.3
+"""Judgement. Least time constant in readings, and largest as a share of the recording; others are a jump or a drift."""
+LEAST_PAST = 0.01
+"""Judgement. Least standard deviation of a history coordinate, as a share of the range of its condition."""
+EXPLAINED_BY_PRESENT = 0.75
+"""Judgement. Largest share of the variance of a history coordinate explained by present conditions: as for forms in
+time."""
+SAME_PAST = 0.995
+"""Judgement. Correlation from which two history coordinates count as one."""
+
 # Waves in time
 LEAST_PERIODS = 3.0
 """Judgement. Periods over a recording from which a wave is tried; the smooth form follows fewer."""

@@ -45,3 +45,5 @@ COLDEST = 200.0
 """Judgement. Kelvin above which a parameter is a temperature, not a difference of two: no oil is colder."""
 RPM = 30.0 / np.pi
 """Definition. Revolutions per minute in one radian per second."""
+FADED = 3.0
+"""Definition. Time constants after which a decay is gone: 5 % of it are left."""

@@ -8,6 +8,7 @@ from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.labels import number, range_text
 from mixedlub.diagnosis.report.text.outlier_text import reading_conditions
+from mixedlub.diagnosis.report.text.past_text import past_words
 from mixedlub.diagnosis.settings.report import ONE_SIGN, SIGNS_DIFFER
 
 NOWHERE = "Nowhere: the calibrated base model agrees with the readings within their noise."
@@ -44,8 +45,14 @@ def located(d: Diagnosis) -> str:
     elsewhere = f" Elsewhere {_rms(z[~inside]):.1f} times the noise." if (~inside).any() else ""
     return (
         f"{opening} the rig reads {sign} than the model without this cause, typically by {number(share)} % (rms "
-        f"{_rms(z[inside]):.1f} times the noise of a reading).{elsewhere}"
+        f"{_rms(z[inside]):.1f} times the noise of a reading).{elsewhere}{_when(d)}"
     )
+
+
+def _when(d: Diagnosis) -> str:
+    """The history on which an unknown depends, as a further sentence."""
+    words = past_words(d) if d.posterior.verdict.is_discrepancy else ""
+    return f" It {words}." if words else ""
 
 
 def _mismatch(d: Diagnosis) -> np.ndarray:

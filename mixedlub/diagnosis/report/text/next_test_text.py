@@ -48,6 +48,13 @@ def _of_discrepancy(d: Diagnosis) -> tuple[str, ...]:
         return (f"Look up what was done to the rig or the sample at {moment}, and repeat a reading from before.",)
     if d.search.discrepancy.best.form == "delay":
         return ("Wait longer after a change of temperature, or run the same conditions in another order.",)
+    past = d.search.discrepancy.best.past
+    if past is not None:
+        name = words_of(past.past.column)
+        return (
+            f"Change {name} up and down between the same levels, and read at once and again after different waits: "
+            "only a history makes readings at equal conditions differ.",
+        )
     if set(d.search.discrepancy.best.axes) <= set(PASSING) and d.search.discrepancy.best.axes:
         return ("It depends on time alone: run the programme again, in another order, and see whether it returns.",)
     return _refined(d)

@@ -42,6 +42,7 @@ from mixedlub.diagnosis.report.text.location_text import where
 from mixedlub.diagnosis.report.text.nearest_effect import nearest_name
 from mixedlub.diagnosis.report.text.next_test_text import box_place, local_position, next_test, wave_period
 from mixedlub.diagnosis.report.text.outlier_text import checked_channel, outliers, shrunk_noise
+from mixedlub.diagnosis.report.text.past_text import past_words
 from mixedlub.diagnosis.report.text.tables import calibration, parameters
 from mixedlub.diagnosis.settings.inference import STRONG_EVIDENCE
 from mixedlub.diagnosis.settings.report import MOST_SIMILAR, NOT_BETTER
@@ -269,6 +270,8 @@ def _form(d: Diagnosis, along: str) -> str:
     shape = d.search.discrepancy.best
     if shape.form == "delay":
         return "follows the temperature of the previous reading: oil or parts had not reached the recorded one"
+    if shape.form == "history":
+        return f"{past_words(d)}, as {_carried(shape.modulates)}"
     if shape.form == "box":
         return f"is a shift where {box_place(d)}, as {_carried(shape.modulates)}"
     if shape.form == "smooth":
