@@ -25,8 +25,7 @@ from mixedlub.case.forward import Forward
 from mixedlub.diagnosis.assessment import mismatch_test, verdict
 from mixedlub.diagnosis.assessment.cross_validation import LevelsOut
 from mixedlub.diagnosis.discrepancy import model
-from mixedlub.diagnosis.inference import law_error
-from mixedlub.diagnosis.search import noise_selection, search
+from mixedlub.diagnosis.search import law_error, noise_selection, search
 from mixedlub.effects import catalogue
 from mixedlub.recording.readings import rows_of
 from mixedlub.validation.answers import Answer, Truth, read_truth

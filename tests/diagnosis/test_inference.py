@@ -11,11 +11,11 @@ from mixedlub.case.forward import Run
 from mixedlub.case.reference_rigs import case, forward
 from mixedlub.diagnosis.assessment.mismatch_test import mismatch_test
 from mixedlub.diagnosis.explanation import NOTHING, Explanation
-from mixedlub.diagnosis.inference.law_error import BaseError, law_error_evidence
 from mixedlub.diagnosis.inference.likelihood import outlier_chance
 from mixedlub.diagnosis.inference.map_fit import linear_fit, map_fit
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search import search as searching
+from mixedlub.diagnosis.search.law_error import BaseError, law_error_evidence
 from mixedlub.diagnosis.settings.law_error import BASE_ERRORS
 from mixedlub.effects import catalogue
 from mixedlub.recording.conditions import coordinates

@@ -9,7 +9,7 @@ import numpy as np
 
 from mixedlub.diagnosis.assessment.prediction import NewRows, Prediction, Refined, refine
 from mixedlub.diagnosis.explanation import NOTHING, Explanation
-from mixedlub.diagnosis.inference.law_error import n_inexact, rms
+from mixedlub.diagnosis.search.law_error import n_inexact, rms
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.assessment import LEAST_SHARED
 from mixedlub.diagnosis.settings.law_error import FORM_ERROR_LEAST, FORM_ERROR_LENGTH

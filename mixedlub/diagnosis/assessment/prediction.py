@@ -18,10 +18,10 @@ from mixedlub.diagnosis.inference.change_points import (
     change_point_posterior,
     drop_columns,
 )
-from mixedlub.diagnosis.inference.law_error import form_error_columns, n_inexact, rms
 from mixedlub.diagnosis.inference.map_fit import Fit, covariance, damped_update, linear_fit
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.drift import correlated_error_variance
+from mixedlub.diagnosis.search.law_error import form_error_columns, n_inexact, rms
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.law_error import BASE_ERRORS, FORM_ERRORS
 from mixedlub.recording.noise import fit_noise_model, transformed_noise

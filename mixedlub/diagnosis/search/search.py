@@ -13,11 +13,11 @@ from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.additions import promising_additions
 from mixedlub.diagnosis.inference.change_points import integrate_change_points
 from mixedlub.diagnosis.inference.initial_guesses import PriorDraws, fit_singles, sample
-from mixedlub.diagnosis.inference.law_error import BaseError, law_error_evidence
 from mixedlub.diagnosis.inference.likelihood import log_likelihood
 from mixedlub.diagnosis.inference.map_fit import Fit, Linear, map_fit
 from mixedlub.diagnosis.inference.nested_laws import published_gain
 from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.search.law_error import BaseError, law_error_evidence
 from mixedlub.diagnosis.search.prior_odds import PriorOdds
 from mixedlub.diagnosis.search.several import discrepancy_beside_laws, fit_from, one_in_time, with_additions
 from mixedlub.diagnosis.settings.inference import (
