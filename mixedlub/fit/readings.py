@@ -16,8 +16,9 @@ from mixedlub.case.forward import Forward
 from mixedlub.chain.model import ChainError, Model
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.fit.headers import Meaning, meaning
+from mixedlub.importers.cell_columns import is_numeric
 from mixedlub.importers.input_file import open_file
-from mixedlub.importers.text_table import Sheet, is_numeric
+from mixedlub.importers.text_table import Sheet
 from mixedlub.laws import film, load, oil
 from mixedlub.schema.cells import is_missing
 from mixedlub.schema.findings import Finding, finding
