@@ -174,8 +174,9 @@ def _answer(problem: Problem, z: np.ndarray) -> Fit:
     residuals, scale = problem.residuals(z), problem.scale(z)
     jacobian = _jacobian(problem, z) / scale
     precision = jacobian.T @ jacobian + np.eye(k)
-    covariance = np.linalg.inv(precision)
-    spread = np.sqrt(np.diag(covariance))
+    # An estimated noise is too small by the parameters that were fitted with it.
+    share = 1.0 if problem.known else max(n - k, 1) / n
+    spread = np.sqrt(np.diag(np.linalg.inv(share * (jacobian.T @ jacobian) + np.eye(k))))
     square = max(float(residuals @ residuals), n * EXACT**2)
     unit = problem.unit * np.abs(problem.readings.values) if problem.logarithmic else problem.unit
     sizes = float(np.sum(np.log(unit)))
