@@ -17,6 +17,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import typer
 
+from mixedlub.app import command as app_command
 from mixedlub.commands import (
     check,
     condense,
@@ -78,6 +79,7 @@ COMMANDS = (
     friction_laws,
     parts,
     prove,
+    app_command,
 )
 
 PARTIAL = {

@@ -81,22 +81,9 @@ def command(
 
     ISO parameters, spectral moments, asperities and Gaussian verdict, with figures.
     """
-    from profiles import SHIPPED_MARK, read, shipped
-    from profiles.image import read_map
-    from profiles.readers.base import HoldsMap
     from roughness import trace_record
-    from roughness.areal import trace_across_lay
     from roughness.guards import overruled
-
-    def trace_of(file: Path) -> Profile:
-        if str(file).startswith(SHIPPED_MARK):
-            return shipped(str(file), "FILE")
-        try:
-            return read(file, unit=unit, spacing=spacing)
-        except HoldsMap:
-            if spacing is not None:
-                raise InputError("a height map has steps of its own", where="spacing", value=spacing) from None
-            return trace_across_lay(read_map(file))
+    from roughness.over_cutoffs import trace_of
 
     done: list[tuple[Path, Profile, Profile, Record]] = []
     wrong: list[InputError] = []
@@ -104,7 +91,7 @@ def command(
     for file in files:
         try:
             with named_options():
-                trace = trace_of(file)
+                trace = trace_of(file, unit, spacing)
                 for text in overruled(trace):
                     note(f"{file}: {text}")
                     told_already.add(f"{file}: {text}")

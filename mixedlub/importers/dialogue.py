@@ -24,10 +24,16 @@ def parse_setting(text: str) -> tuple[str, Any]:
     key, equals, value = text.partition("=")
     if not equals or not key.strip():
         raise InputError("must read KEY=VALUE", where="--set", value=text)
-    return key.strip(), _value(value)
+    return key.strip(), value_of(value)
 
 
-def _value(text: str) -> Any:
+def value_of(text: str, example: str = "") -> Any:
+    """Value of a reply in TOML, or as a list without brackets where the example is a list; a bare word is text.
+
+    >>> value_of("206, 75", example="[206.0, 206.0]"), value_of("0.2"), value_of("ground")
+    ([206, 75], 0.2, 'ground')
+    """
+    text = f"[{text}]" if is_list(example, text) else text
     try:
         return tomllib.loads(f"value = {text.strip()}")["value"]
     except ValueError:
@@ -47,7 +53,7 @@ def ask_for(question: Question, ask: Ask, say: Say) -> dict[str, Any] | None:
         if not reply and not question.needed:
             return None
         if not reply and question.offered:
-            return {question.key: _value(question.example)}
+            return {question.key: value_of(question.example)}
         if not reply and was_empty:
             return None
         was_empty = not reply
@@ -62,11 +68,11 @@ def ask_for(question: Question, ask: Ask, say: Say) -> dict[str, Any] | None:
         elif reply in ("=", VALUES, question.one_value):
             say("one value for all rows is written as =VALUE")
         elif reply.startswith("=") and question.one_value:
-            return {question.one_value: _value(reply[1:])}
+            return {question.one_value: value_of(reply[1:])}
         elif reply.startswith(VALUES) and "=" in reply:
             return dict([parse_setting(reply)])
         else:
-            return {question.key: _value(f"[{reply}]" if is_list(question.example, reply) else reply)}
+            return {question.key: value_of(reply, question.example)}
 
 
 def _hint(question: Question) -> str:

@@ -30,7 +30,7 @@ ROOMS = {
             "kinds",
         ),
         *("solutions", "case", "recording", "evaluate", "data_checks", "study", "efficiency", "report", "diagnosis"),
-        *("importers", "api", "validation", "commands", "cli", "__main__"),
+        *("importers", "api", "validation", "commands", "app", "cli", "__main__"),
     ),
     "diagnosis": (
         "settings",
