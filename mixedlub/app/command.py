@@ -26,7 +26,7 @@ def command(
     """A local page: recordings, surfaces, pairings.
 
     Drop files, answer questions, run a diagnosis, a roughness evaluation or a study, and download the results. The
-    page is served to this machine alone and needs no network. Ctrl-C ends it; work that ran is listed at the next start.
+    page is served to this machine alone and needs no network. Ctrl-C ends it; all work is listed at the next start.
     """
     try:
         from mixedlub.app.server import serve

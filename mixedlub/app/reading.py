@@ -35,7 +35,8 @@ Field = dict[str, Any]
 def answers_of(texts: Texts, examples: Texts, files: Sequence[Path]) -> dict[str, Any]:
     """Answers by key: those of TOML files, and the typed ones, which take precedence.
 
-    >>> answers_of({"contact.radius_mm": "9.5, inf", "import.columns.load_N": "=20"}, {"contact.radius_mm": "[1, 2]"}, [])
+    >>> texts = {"contact.radius_mm": "9.5, inf", "import.columns.load_N": "=20"}
+    >>> answers_of(texts, {"contact.radius_mm": "[1, 2]"}, [])
     {'contact.radius_mm': [9.5, inf], 'import.values.load_N': 20}
     """
     answers = {key: value for file in files for key, value in flat(read_toml(file)).items() if key != "schema"}

@@ -22,6 +22,17 @@ PAGE = "recordings"
 DRAFT, PLOT, ANSWER, EARLIER = "draft.json", "plot.svg", "answer", "earlier"
 SHOWN_TESTS = 12
 """Judgement. Rows of the next tests on the page."""
+TITLES = {
+    "gears": "Gears",
+    "contact": "Contact",
+    "lubricant": "Oil",
+    "recording": "Recording",
+    "recording.noise": "Scatter of the readings",
+    "uncertainty": "What calibration may move: one standard deviation each",
+    "import": "Import",
+    "case": "Case",
+}
+"""Headings of the groups of questions, by the table of system.toml."""
 Files = Annotated[list[UploadFile], File(description="The files of the instrument; a system.toml and traces too.")]
 
 router = APIRouter()
@@ -161,6 +172,7 @@ def _shown(desk: Desk, item: Item, error: str = "", status: int = 200) -> Respon
         record=item.record,
         draft=draft,
         groups=_grouped(draft.get("fields", [])),
+        titles=TITLES,
         error=error or item.record.get("error", ""),
         answer=found,
         ranked=ranked,

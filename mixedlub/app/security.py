@@ -15,7 +15,7 @@ ENVELOPE = 2**16
 READING = ("GET", "HEAD")
 TOO_LARGE = f"The files are larger than {LARGEST_UPLOAD // 2**20} MB together; send fewer, or average them first."
 PAGE = (
-    "default-src 'none'; img-src 'self'; style-src 'self'; script-src 'self'; connect-src 'self'; frame-src 'self'; "
+    "default-src 'none'; img-src 'self' data:; style-src 'self'; script-src 'self'; connect-src 'self'; frame-src 'self'; "
     "form-action 'self'; base-uri 'none'; frame-ancestors 'none'"
 )
 """Content policy of the pages: nothing but this server."""
@@ -26,7 +26,7 @@ RESULT = (
 """Content policy of a written page: its own scripts in a sandbox that reaches neither the network nor the app."""
 HEADERS = {
     "x-content-type-options": "nosniff",
-    "referrer-policy": "no-referrer",
+    "referrer-policy": "same-origin",
     "cross-origin-resource-policy": "same-origin",
     "cross-origin-opener-policy": "same-origin",
     "cache-control": "no-store",

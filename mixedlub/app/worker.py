@@ -10,6 +10,7 @@ import warnings
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
+from importlib import import_module
 from typing import Any
 
 from profiles.errors import InputError
@@ -55,11 +56,18 @@ class Worker:
 
 
 def _started() -> ProcessPoolExecutor:
-    return ProcessPoolExecutor(1, multiprocessing.get_context("spawn"), initializer=_leave_ctrl_c_to_the_server)
+    pool = ProcessPoolExecutor(1, multiprocessing.get_context("spawn"), initializer=_leave_ctrl_c_to_the_server)
+    pool.submit(_ready)
+    return pool
 
 
 def _leave_ctrl_c_to_the_server() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _ready() -> None:
+    """Load the readers before the first file is sent."""
+    import_module("mixedlub.app.reading")
 
 
 def _guarded(function: Callable[..., Any], *arguments: Any) -> tuple[str, Any]:
