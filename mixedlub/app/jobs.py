@@ -33,6 +33,7 @@ ALMOST_NOTHING = 2**20
 SHARE = re.compile(r"(\d+) of (\d+)")
 ERROR = "mixedlub: "
 LOST = "the page was closed before the run was done; start it again"
+ENDED = "ended on request; earlier results are kept"
 OTHERS_WAIT = "waits for the run before it"
 
 
@@ -100,7 +101,7 @@ class Queue:
                 job.move(CANCELLED, "taken from the queue")
                 return
             if job.state == RUNNING:
-                job.state = CANCELLED
+                job.state, job.text = CANCELLED, ENDED
         if job.process is not None:
             _end(job.process)
 
@@ -153,7 +154,7 @@ class Queue:
         if self._stopped:
             job.move(FAILED, LOST)
         elif job.state == CANCELLED:
-            job.move(CANCELLED, "ended on request; earlier results are kept")
+            job.move(CANCELLED, ENDED)
         elif status == 0:
             with suppress(OSError):
                 job.ended()

@@ -114,7 +114,9 @@ def _note(note: Finding) -> dict[str, str]:
 def _asked(question: Question, answers: Mapping[str, Any], headers: Sequence[str]) -> Field:
     """Input for a question of the importer."""
     example = "" if question.example in (UNKNOWN_HEADER, UNKNOWN_UNIT) or question.placeholder else question.example
-    choices = {option: about(option) if question.key == KIND else option for option in question.options}
+    # One value for all rows can be typed, so that these headers are suggestions and no choice.
+    options = () if question.one_value else question.options
+    choices = {option: about(option) if question.key == KIND else option for option in options}
     text = question.text + (" (=VALUE if all rows have the same)" if question.one_value else "")
     return {
         **_field(question.key, text, example, question.needed),

@@ -15,8 +15,8 @@ ENVELOPE = 2**16
 READING = ("GET", "HEAD")
 TOO_LARGE = f"The files are larger than {LARGEST_UPLOAD // 2**20} MB together; send fewer, or average them first."
 PAGE = (
-    "default-src 'none'; img-src 'self' data:; style-src 'self'; script-src 'self'; connect-src 'self'; frame-src 'self'; "
-    "form-action 'self'; base-uri 'none'; frame-ancestors 'none'"
+    "default-src 'none'; img-src 'self' data:; style-src 'self'; script-src 'self'; connect-src 'self'; "
+    "frame-src 'self'; form-action 'self'; base-uri 'none'; frame-ancestors 'none'"
 )
 """Content policy of the pages: nothing but this server."""
 RESULT = (

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import errno
 import socket
 import webbrowser
 from collections.abc import AsyncIterator, Callable
@@ -195,20 +194,19 @@ def desk(folder: Path) -> Desk:
 
 def serve(folder: Path, port: int, browser: bool, say: Callable[[str], None]) -> None:
     """Serve the page on this machine until Ctrl-C."""
-    listening = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
-    listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-    try:
-        listening.bind((HOST, port))
-    except OSError as error:
-        used = error.errno in (errno.EADDRINUSE, errno.EACCES)
-        rule = "is in use or not permitted; name another, or 0 for a free one" if used else f"({error.strerror})"
-        raise InputError(rule, where="--port", value=port) from None
-    port = listening.getsockname()[1]
-    hosts = [f"{name}:{port}" for name in (HOST, "localhost")]
-    app = application(desk(folder), hosts)
-    address = f"http://{HOST}:{port}/"
-    say(f"{address}  (work in {folder}; Ctrl-C ends the page)")
-    if browser:
-        webbrowser.open(address)
-    config = uvicorn.Config(app, log_level="error", access_log=False, server_header=False, timeout_graceful_shutdown=3)
-    uvicorn.Server(config).run([listening])
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as listening:
+        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            listening.bind((HOST, port))
+            listening.listen()
+        except OSError as error:
+            rule = f"cannot be used ({error.strerror}); name another port, or 0 for a free one"
+            raise InputError(rule, where="--port", value=port) from None
+        port = listening.getsockname()[1]
+        app = application(desk(folder), [f"{name}:{port}" for name in (HOST, "localhost")])
+        address = f"http://{HOST}:{port}/"
+        say(f"{address}  (work in {folder}; Ctrl-C ends the page)")
+        if browser:
+            webbrowser.open(address)
+        quiet: dict[str, Any] = {"log_level": "error", "access_log": False, "server_header": False}
+        uvicorn.Server(uvicorn.Config(app, timeout_graceful_shutdown=3, **quiet)).run([listening])
