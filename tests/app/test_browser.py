@@ -40,7 +40,7 @@ def page(browser, served):
     asked, told = [], []
     context = browser.new_context(viewport={"width": 1280, "height": 900}, accept_downloads=True)
     opened = context.new_page()
-    opened.set_default_timeout(60_000)
+    opened.set_default_timeout(PATIENCE)
     opened.on("request", lambda request: asked.append(request.url))
     opened.on("pageerror", lambda error: told.append(str(error)))
     opened.on("console", lambda message: told.append(message.text) if message.type == "error" else None)
