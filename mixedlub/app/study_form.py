@@ -173,7 +173,7 @@ def ranked(result: Path) -> dict[str, Any]:
 
     from mixedlub.report.ranking import ranking_map
     from mixedlub.report.style import as_svg
-    from mixedlub.study.ranking import ranking
+    from mixedlub.study.rank import ranking
 
     found = ranking(pd.read_parquet(result / "results.parquet"))
     return {"rows": found.to_dict("records"), "map": as_svg(ranking_map(found))}

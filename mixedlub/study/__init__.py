@@ -7,7 +7,7 @@ from typing import Any
 
 from mixedlub.schema.findings import warn_of
 from mixedlub.study.plan import Study, counted, factors, read_study
-from mixedlub.study.ranking import ranking
+from mixedlub.study.rank import ranking
 from mixedlub.study.results import Results, run_study
 from profiles.errors import as_path
 
