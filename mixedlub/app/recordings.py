@@ -92,10 +92,10 @@ async def answered(desk: Desk, item: Item, texts: dict[str, str], over: str | No
     record = item.record
     given = {key: text.strip() for key, text in texts.items() if key in record["asked"]}
     kind = given.get(reading.KIND, "")
-    # Answers for another kind of recording do not fit, except its own.
-    kept = {} if kind and kind != read_record(item.folder / DRAFT).get("kind") else record["texts"]
-    if not kept and kind:
-        given = {reading.KIND: kind}
+    kept = record["texts"]
+    if kind and kind != read_record(item.folder / DRAFT).get("kind"):
+        # Answers for another kind of recording do not fit.
+        kept, given = {}, {reading.KIND: kind}
     merged = {key: text for key, text in {**kept, **given}.items() if text}
     offered = {key: one["value"] for key, one in record["asked"].items() if one["offered"]}
     merged = {key: text for key, text in merged.items() if offered.get(key) != text or key in kept}
