@@ -13,14 +13,14 @@ from roughness.over_cutoffs import over_cutoffs
 from tests.app.recordings_of_all_kinds import MADE_UP
 
 pytest.importorskip("fastapi")
-from fastapi import UploadFile  # noqa: E402
+from fastapi import UploadFile
 
-from mixedlub.app import reading, recordings, study_form  # noqa: E402
-from mixedlub.app.desk import Desk, environment  # noqa: E402
-from mixedlub.app.jobs import FAILED, LOST, Jobs  # noqa: E402
-from mixedlub.app.store import Store, read_record, write_record  # noqa: E402
-from mixedlub.schema.toml_file import read_toml  # noqa: E402
-from profiles.errors import InputError  # noqa: E402
+from mixedlub.app import reading, recordings, study_form
+from mixedlub.app.desk import Desk, environment
+from mixedlub.app.jobs import FAILED, LOST, Jobs
+from mixedlub.app.store import Store, read_record, write_record
+from mixedlub.schema.toml_file import read_toml
+from profiles.errors import InputError
 
 
 class Here:
