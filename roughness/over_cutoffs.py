@@ -39,7 +39,7 @@ def over_cutoffs(trace: Profile, chosen: float | None = None, **how: Any) -> Ite
     ``how``: keywords of `trace_record`.
 
     >>> from profiles import shipped
-    >>> [row["cutoff_mm"] for row in over_cutoffs(shipped("shipped:0258"))]
+    >>> [round(row["cutoff_mm"], 2) for row in over_cutoffs(shipped("shipped:0258"))]
     [0.08, 0.25, 0.8, 2.5]
     """
     for cutoff in sorted({*LONG, *(() if chosen is None else (chosen,))}):

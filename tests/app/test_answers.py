@@ -1,4 +1,4 @@
-"""Answers of the form: kept while they fit, taken back when emptied, dropped with another kind; rankings and cut-offs."""
+"""Answers of the form: kept while they fit, dropped with another kind of recording; rankings and cut-offs."""
 
 import asyncio
 import io
