@@ -31,7 +31,7 @@ def command(
     try:
         from mixedlub.app.server import serve
     except ModuleNotFoundError as error:
-        rule = f"needs the package {error.name}: pip install 'mixedlub[app]'"
+        rule = f"needs the package {error.name}, which comes with the extra app: pip install '.[app]' in the clone"
         raise InputError(rule, where="app") from None
     folder = output_folder(Path("out") / NAME if out is None else out, NAME, "")
     serve(folder, port, browser, echo)
