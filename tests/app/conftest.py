@@ -21,8 +21,8 @@ def served(tmp_path_factory):
     address = process.stdout.readline().split()[0].rstrip("/")
     for _ in range(100):
         try:
-            urllib.request.urlopen(address, timeout=5)
-            break
+            with urllib.request.urlopen(address, timeout=5):
+                break
         except OSError:
             time.sleep(0.1)
     yield address, work, process
