@@ -17,6 +17,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import typer
 
+from mixedlub.app import command as app_command
 from mixedlub.commands import (
     bevel,
     check,
@@ -82,6 +83,7 @@ COMMANDS = (
     friction_laws,
     parts,
     prove,
+    app_command,
 )
 
 PARTIAL = {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import os
 import shutil
 import sys
 import tempfile
@@ -111,7 +112,9 @@ def case_folder(case: Path) -> Path:
     return case
 
 
-EVERY_S = 20.0
+PROGRESS = "MIXEDLUB_PROGRESS_S"
+"""Environment variable with another time between two lines on progress."""
+EVERY_S = float(os.environ.get(PROGRESS, "20"))
 """Time (s) between two lines on the progress of a run that has no terminal."""
 
 

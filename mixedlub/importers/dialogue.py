@@ -31,7 +31,7 @@ def parse_setting(text: str) -> tuple[str, Any]:
     key, equals, value = text.partition("=")
     if not equals or not key.strip():
         raise InputError("must read KEY=VALUE", where="--set", value=text)
-    return key.strip(), _value(value)
+    return key.strip(), value_of(value)
 
 
 def is_likely(question: Question) -> bool:
@@ -41,10 +41,16 @@ def is_likely(question: Question) -> bool:
 
 def likely_answer(question: Question) -> Any:
     """Proposed or probable answer."""
-    return _value(question.example)
+    return value_of(question.example)
 
 
-def _value(text: str) -> Any:
+def value_of(text: str, example: str = "") -> Any:
+    """Value of a reply in TOML, or as a list without brackets where the example is a list; a bare word is text.
+
+    >>> value_of("206, 75", example="[206.0, 206.0]"), value_of("0.2"), value_of("ground")
+    ([206, 75], 0.2, 'ground')
+    """
+    text = f"[{text}]" if is_list(example, text) else text
     try:
         return tomllib.loads(f"value = {text.strip()}")["value"]
     except ValueError:
@@ -71,7 +77,7 @@ def ask_all(questions: Sequence[Question], ask: Ask, say: Say) -> dict[str, Answ
         if open_ and not reply.endswith("?"):
             again = "Enter again leaves them open, and then no case is written"
             say(f"needed: {', '.join(open_)}" + (f"; {again}" if was_empty else ""))
-    proposed = {q.key: {q.key: _value(q.example)} for q in questions if q.needed and q.offered}
+    proposed = {q.key: {q.key: value_of(q.example)} for q in questions if q.needed and q.offered}
     return {**proposed, **replies}
 
 
@@ -139,11 +145,11 @@ def _told(question: Question, reply: str, replies: dict[str, Answers], say: Say)
     if reply in ("=", VALUES, question.one_value) and question.one_value:
         say("one value for all rows is written as NUMBER==VALUE")
     elif reply.startswith("=") and question.one_value:
-        replies[question.key] = {question.one_value: _value(reply[1:])}
+        replies[question.key] = {question.one_value: value_of(reply[1:])}
     elif reply.startswith(VALUES) and "=" in reply:
         replies[question.key] = dict([parse_setting(reply)])
     elif reply:
-        replies[question.key] = {question.key: _value(f"[{reply}]" if is_list(question.example, reply) else reply)}
+        replies[question.key] = {question.key: value_of(reply, question.example)}
 
 
 def _hint(question: Question) -> str:

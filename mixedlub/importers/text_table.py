@@ -55,10 +55,12 @@ def with_header(rows: Sequence[Line], lines: Mapping[int, str]) -> list[Line]:
     """
     width = common_length([row for _, row in rows])
     first = next((i for i, (_, row) in enumerate(rows) if len(row) == width > 1 and _tally(row)[0]), 0)
+    if first == 0:
+        return list(rows)
     number, above = rows[first - 1]
     ways = [form.findall(lines[number]) for form in (WORD, WORD_AND_UNIT, WORDS)]
     words = next((way for way in ways if len(way) == width), None)
-    if first == 0 or len(above) > 1 or words is None or any(map(is_number, words)):
+    if len(above) > 1 or words is None or any(map(is_number, words)):
         return list(rows)
     return [*rows[: first - 1], (number, [word.strip() for word in words]), *rows[first:]]
 

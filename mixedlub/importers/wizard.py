@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -27,9 +28,9 @@ from mixedlub.importers.base import (
     refuse_wrong,
 )
 from mixedlub.importers.case_writer import findings_toml, write_case
-from mixedlub.importers.dialogue import Ask, Say, ask_all, is_likely, likely_answer, parse_setting
+from mixedlub.importers.dialogue import Ask, Say, ask_all, is_likely, likely_answer, parse_setting, value_of
 from mixedlub.importers.input_file import InputFile, open_file
-from mixedlub.importers.missing_inputs import gap_lines, gaps, undescribed
+from mixedlub.importers.missing_inputs import Gap, gap_lines, gaps, undescribed
 from mixedlub.importers.text_table import joined_runs
 from mixedlub.importers.time_base import TIME, joined_times
 from mixedlub.schema import system_file, toml_file
@@ -107,6 +108,31 @@ def import_files(files: Sequence[Path], out: Path, *, overwrite: bool = False, *
     for note in _warnings(draft):
         report(note)
     return folder
+
+
+def drafted(files: Sequence[Path], answers: Answers) -> tuple[Draft, dict[str, Any], list[Question]]:
+    """Draft of a case before it is written, its answers with every likely one taken, and the questions of these."""
+    opened, given = _opened(files, flat(answers))
+    draft = read(opened, given)
+    taken: list[Question] = []
+    while likely := [q for q in draft.questions if q.offered and q.key not in given]:
+        taken.append(likely[0])
+        given[likely[0].key] = value_of(likely[0].example)
+        draft = read(opened, given)
+    return draft, given, taken
+
+
+def first_rows(files: Sequence[Path], answers: Answers, count: int) -> tuple[list[str], list[list[str]]]:
+    """Headers and first rows of the table in the first file, as the instrument wrote them."""
+    opened, _ = _opened(files[:1], answers)
+    cells = opened[0].table().cells if opened else {}
+    return list(cells), [list(map(str, row)) for row in islice(zip(*cells.values()), count)]
+
+
+def missing_inputs(draft: Draft, answers: Answers, folders: Sequence[Path] = ()) -> tuple[Gap, ...]:
+    """Inputs of the rig that the answers to a draft without open questions leave out."""
+    given, _ = with_attachments(answers, folders)
+    return gaps(_checked(draft, given), draft.columns)
 
 
 def run(
@@ -246,17 +272,17 @@ def _summary(draft: Draft, answers: Answers) -> Iterator[str]:
     yield f"{draft.kind}: {rows} rows, reading {draft.quantity}"
     width = max(map(len, draft.columns))
     for name, values in draft.columns.items():
-        yield f"  {name:{width}}  {_range(values)}"
+        yield f"  {name:{width}}  {range_of_column(values)}"
     left = [q for q in draft.questions if q.key not in answers]
     if left:
         yield "left open, each may be given later:"
         yield from listed(left)
 
 
-def _range(values: np.ndarray) -> str:
+def range_of_column(values: np.ndarray) -> str:
     """Range of a numeric column, or its names.
 
-    >>> _range(np.array([50.0, 100.5, np.nan])), _range(np.array(["a", "b", "a"]))
+    >>> range_of_column(np.array([50.0, 100.5, np.nan])), range_of_column(np.array(["a", "b", "a"]))
     ('50 to 100.5', 'a, b')
     """
     if values.dtype.kind not in "fiu":
@@ -293,11 +319,8 @@ def _write(
     """Write the case folder; return it, and the reason if diagnose would reject a case that check reads."""
     step(STEPS[2])
     given, files = with_attachments(answers, folders)
-    system: dict[str, Any] = {"kind": draft.kind, **given}
-    for section, facts in draft.system.items():
-        system[section] = {**facts, **system.get(section, {})}
-    system["recording"] = {"quantity": draft.quantity, **system.get("recording", {})}
-    checked = toml_file.parse(system_file.System, {"schema": SCHEMA, **system}, "answers")
+    system = _system(draft, given)
+    checked = _checked(draft, given)
     every = answers.get(EVERY.key, 1)
     refuse_wrong(EVERY.key, every)
     columns = {name: values[::every] for name, values in draft.columns.items()}
@@ -323,3 +346,16 @@ def _write(
         files[NAME] = findings_toml(warnings).encode()
     write_case(out, system, numbered, overwrite=overwrite, comments=comments, attachments=files, check=read_back)
     return out, "".join(refusals)
+
+
+def _system(draft: Draft, given: Mapping[str, Any]) -> dict[str, Any]:
+    """Tables of system.toml: the facts of the draft, and the answers, which take precedence."""
+    system: dict[str, Any] = {"kind": draft.kind, **given}
+    for section, facts in draft.system.items():
+        system[section] = {**facts, **system.get(section, {})}
+    system["recording"] = {"quantity": draft.quantity, **system.get("recording", {})}
+    return system
+
+
+def _checked(draft: Draft, given: Mapping[str, Any]) -> system_file.System:
+    return toml_file.parse(system_file.System, {"schema": SCHEMA, **_system(draft, given)}, "answers")

@@ -7,6 +7,7 @@ from typing import Any
 
 from mixedlub.schema.findings import warn_of
 from mixedlub.study.plan import Study, counted, factors, read_study
+from mixedlub.study.rank import ranking
 from mixedlub.study.results import Results, run_study
 from profiles.errors import as_path
 
@@ -27,4 +28,4 @@ def run(study: Study | str | PathLike[str], **how: Any) -> Results:
     return results
 
 
-__all__ = ["Results", "Study", "counted", "factors", "read_study", "run", "run_study"]
+__all__ = ["Results", "Study", "counted", "factors", "ranking", "read_study", "run", "run_study"]

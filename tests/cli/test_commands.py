@@ -75,7 +75,7 @@ LONG = ("condense", "law-errors", "study")
     [
         pytest.param(c, marks=pytest.mark.long if c.NAME in LONG else (), id=c.NAME)
         for c in COMMANDS
-        if c.NAME not in ("prove", "diagnose")
+        if c.NAME not in ("prove", "diagnose", "app")
     ],
 )
 def test_the_example_of_the_help_runs_in_an_empty_folder(command, tmp_path, monkeypatch):

@@ -41,7 +41,7 @@ ROOMS = {
             "report",
             "diagnosis",
         ),
-        *("importers", "fit", "api", "validation", "commands", "cli", "__main__"),
+        *("importers", "fit", "api", "validation", "commands", "app", "cli", "__main__"),
     ),
     "diagnosis": (
         "settings",

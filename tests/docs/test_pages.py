@@ -13,7 +13,10 @@ DOCS = Path(__file__).parents[2] / "docs"
 PAGES = sorted(p for p in DOCS.rglob("*.md") if not {"made"} & set(p.relative_to(DOCS).parts))
 BUILT = {"run", "file", "picture", "figure", "toctree", "include", "literalinclude", "eval-rst"}
 """Directives of the build: what they show was run, or comes from a file."""
-SHOWN = {"contributing.md", "index.md", "howto/cluster.md", "validation/batteries.md", "validation/concealed.md"}
+SHOWN = {
+    *("contributing.md", "index.md", "howto/app.md", "howto/cluster.md"),
+    *("validation/batteries.md", "validation/concealed.md"),
+}
 """Pages with commands that install or take long, as text."""
 
 

@@ -186,6 +186,12 @@ def test_milli_is_not_mega(header, column):
         convert(np.array([1.0]), split(header)[1], BY_NAME[column], "t.csv")
 
 
+@pytest.mark.parametrize("text", ["", "\n\n", "# only a comment\n"])
+def test_a_file_without_rows_is_refused(text):
+    with pytest.raises(InputError, match=r"film.txt: needs a header line and at least one row"):
+        read_sheet(text, "film.txt")
+
+
 def test_a_table_without_a_header_is_refused():
     with pytest.raises(InputError, match="no header: the first line holds numbers only"):
         read_sheet("0.02\t44.1\n0.04\t58.8\n0.08\t79.7\n", "film.txt")
