@@ -6,11 +6,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from profiles import SHIPPED_MARK, InputError, Profile, read, shipped
-from profiles.image import read_map
+from profiles import SHIPPED_MARK, InputError, Profile, shipped
+from profiles.maps import read_any
 from profiles.profile import of_profile
-from profiles.readers.base import HoldsMap
-from roughness.areal import trace_across_lay
+from roughness.maps.lay import trace_across_lay
 from roughness.record import trace_record
 
 LONG = (0.08e-3, 0.25e-3, 0.8e-3, 2.5e-3, 8e-3)
@@ -24,12 +23,8 @@ def trace_of(file: str | Path, unit: str | None = None, spacing: str | None = No
     """Trace of a file or of the package; of a map, the trace across its lay."""
     if str(file).startswith(SHIPPED_MARK):
         return shipped(str(file), "FILE")
-    try:
-        return read(file, unit=unit, spacing=spacing)
-    except HoldsMap:
-        if spacing is not None:
-            raise InputError("a height map has steps of its own", where="spacing", value=spacing) from None
-        return trace_across_lay(read_map(Path(file)))
+    found = read_any(file, unit=unit, spacing=spacing)
+    return found if isinstance(found, Profile) else trace_across_lay(found)
 
 
 @of_profile

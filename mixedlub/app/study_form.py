@@ -78,16 +78,10 @@ def oils() -> dict[str, str]:
 
 def kind_of_surface(file: Path) -> str:
     """Key of a surface for a file: ``profile`` of a trace, ``map`` of a height map; an error for any other file."""
-    from profiles import read
-    from profiles.image import read_map
-    from profiles.readers.base import HoldsMap
+    from profiles import Profile
+    from profiles.maps import read_any
 
-    try:
-        read(file)
-    except HoldsMap:
-        read_map(file)
-        return "map"
-    return "profile"
+    return "profile" if isinstance(read_any(file), Profile) else "map"
 
 
 def study_of(texts: Texts, files: Mapping[str, str]) -> dict[str, Any]:
