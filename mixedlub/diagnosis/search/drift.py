@@ -72,12 +72,13 @@ def estimate_correlated_error(search: Search, least: float) -> tuple[CorrelatedE
     order = np.argsort(clock, kind="stable")
     largest = _largest_under_null(screened)
     noise = [form for form in forms if form.size <= largest]
-    tried = [(weights[NOTHING], null_fit.residual, null_fit.anchor, null_fit.slopes, noise)]
+    exact = screened.published_log_weights
+    tried = [(exact[NOTHING], null_fit.residual, null_fit.anchor, null_fit.slopes, noise)]
     for key in named:
         fit = screened.fits[key]
-        tried.append((weights[key] - screened.scores[key] + fit.evidence, fit.residual, fit.anchor, fit.slopes, forms))
+        tried.append((exact[key], fit.residual, fit.anchor, fit.slopes, forms))
     flexible = np.hstack([discrepancy.base.slopes, discrepancy_columns])
-    tried.append((weights[DISCREPANCY], discrepancy.fit.residual, discrepancy.base.anchor, flexible, forms))
+    tried.append((exact[DISCREPANCY], discrepancy.fit.residual, discrepancy.base.anchor, flexible, forms))
     for weight, residual, target, slopes, allowed in tried:
         if not allowed or not is_autocorrelated(residual[order]):
             continue

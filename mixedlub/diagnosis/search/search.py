@@ -84,6 +84,12 @@ class Search:
         return found
 
     @property
+    def published_log_weights(self) -> dict[Explanation, float]:
+        """Log prior plus log evidence of every explanation, with exact laws in their published forms."""
+        scores, fits = self.scores, self.fits
+        return {m: w if m.is_discrepancy else w - scores[m] + fits[m].evidence for m, w in self.log_weights.items()}
+
+    @property
     def prior_odds(self) -> PriorOdds:
         """Prior odds of the explanations formed from the testable effects."""
         return PriorOdds.of(s.id for s in self.draws)
@@ -91,13 +97,9 @@ class Search:
     @property
     def log_bayes_factor(self) -> float:
         """Log Bayes factor of all explanations together, in their published forms, against nothing missing."""
-        logs = [
-            w if m.is_discrepancy else w - self.scores[m] + self.fits[m].evidence
-            for m, w in self.log_weights.items()
-            if m != NOTHING
-        ]
-        prior = self.prior_odds
-        odds = float(np.logaddexp.reduce(logs)) - self.log_weights[NOTHING]
+        logs, prior = self.published_log_weights, self.prior_odds
+        nothing = logs.pop(NOTHING)
+        odds = float(np.logaddexp.reduce(list(logs.values()))) - nothing
         return odds + float(np.log(prior.of_nothing / (prior.total - prior.of_nothing)))
 
     @property

@@ -69,7 +69,7 @@ def most_probable(search: Search, least: float) -> tuple[tuple[float, float], fl
     tried = [(weights[DISCREPANCY], discrepancy.base.anchor, np.hstack([discrepancy.base.slopes, flexible]))]
     for key in (NOTHING, *named):
         fit = screened.fits[key]
-        tried.append((weights[key] - screened.scores[key] + fit.evidence, fit.anchor, fit.slopes))
+        tried.append((screened.published_log_weights[key], fit.anchor, fit.slopes))
     before = [linear_fit(anchor, slopes).evidence for _, anchor, slopes in tried]
 
     def log_probability(which: int, error: tuple[float, float], times: float) -> float:
