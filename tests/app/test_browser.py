@@ -151,6 +151,7 @@ def filled():
     return of
 
 
+@pytest.mark.long
 def test_from_a_dropped_file_to_a_verdict_its_files_and_added_readings(page, served, filled):
     to_a_run(page, "driven_and_back_driven")
     address = page.url
@@ -246,6 +247,7 @@ def test_a_wrong_trace_alone_is_one_sentence(page):
     assert "wrong.csv" in page.locator(".error").text_content()
 
 
+@pytest.mark.long
 def test_pairings_are_ranked_by_their_mean_loss(page, served):
     page.goto(f"{served[0]}/pairings")
     drop(page, "main", ("wrong.csv", b"no,trace\nat,all\n"))
