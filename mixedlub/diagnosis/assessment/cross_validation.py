@@ -13,7 +13,6 @@ import numpy as np
 
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.change_points import average_over_change_points, change_point_posterior, drop_columns
-from mixedlub.diagnosis.inference.likelihood import log_likelihood
 from mixedlub.diagnosis.inference.map_fit import covariance, linear_fit, map_fit
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.search import Search
@@ -31,8 +30,8 @@ from mixedlub.recording.set_points import set_points
 class HeldOut:
     """Rms of (recorded - predicted)/sd on left-out levels, with calibration alone and with the verdict.
 
-    ``score`` is the log probability of the readings with the prediction variance of the verdict added to the noise,
-    ``score_before`` the log probability with calibration alone.
+    ``score`` is the log probability of the readings of each level together, with the uncertainty that they share,
+    ``score_before`` the same with calibration alone.
     """
 
     before: float
@@ -68,8 +67,8 @@ class LevelsOut:
     name: str
     folds: tuple[_Fold, ...]
     before: np.ndarray
-    refitted: dict[Explanation, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
-    """Residuals and prediction variance of the explanations tried so far."""
+    refitted: dict[Explanation, tuple[np.ndarray, float]] = field(default_factory=dict)
+    """Residuals and log probability of the readings under the explanations tried so far."""
 
     @classmethod
     def of(cls, search: Search, only: str = "") -> LevelsOut:
@@ -91,57 +90,63 @@ class LevelsOut:
     def held(self, verdict: Explanation, outliers: np.ndarray) -> HeldOut:
         """Cross-validation of an explanation over all levels."""
         outliers = outliers[self.used]
-        if verdict not in self.refitted:
-            self.refitted[verdict] = self._refit(verdict)
-        after, open_variance = self.refitted[verdict]
+        after, score = self._refitted(verdict)
         used = ~outliers if not outliers.all() else np.ones(outliers.size, bool)
-        spread = np.sqrt(1.0 + open_variance)
         return HeldOut(
             float(np.sqrt(np.mean(self.before[used] ** 2))),
             float(np.sqrt(np.mean(after[used] ** 2))),
             f"leave one level of {self.name} out" if self.name else "leave every fifth reading out",
             len(self.folds),
             int(used.sum()),
-            float((log_likelihood(after / spread)[0] - np.log(spread)).sum()),
-            float(log_likelihood(self.before)[0].sum()),
+            score,
+            self._refitted(NOTHING)[1],
         )
 
-    def _refit(self, verdict: Explanation) -> tuple[np.ndarray, np.ndarray]:
-        """Residuals and prediction variance of all readings, parameters refitted without their level."""
-        after, open_variance = np.zeros((2, self.before.size))
+    def _refitted(self, verdict: Explanation) -> tuple[np.ndarray, float]:
+        if verdict not in self.refitted:
+            self.refitted[verdict] = self._refit(verdict)
+        return self.refitted[verdict]
+
+    def _refit(self, verdict: Explanation) -> tuple[np.ndarray, float]:
+        """Residuals of all readings, parameters refitted without their level, and the log probability of the levels."""
+        after, score = np.zeros(self.before.size), 0.0
         forms = _discrepancy_columns(self.search) if verdict == DISCREPANCY else []
         for f in self.folds:
+            scale = f.test.sd / f.wide
             if verdict == DISCREPANCY:
-                residual, variance = _discrepancy_residuals(self.search, forms, f.out)
-                after[f.out] = residual * f.test.sd / f.wide
-                open_variance[f.out] = variance * (f.test.sd / f.wide) ** 2
-            elif verdict == NOTHING:
-                after[f.out] = self.before[f.out]
-            else:
-                fit = map_fit(f.train, verdict, self.search.fits[verdict].z, warm=True)
-                run = f.test.run(fit.explanation, fit.z)
-                # The level left out may be the one that determines a change point.
-                posteriors = change_point_posterior(f.train, fit)
-                gain, (variance, _, _) = average_over_change_points(
-                    posteriors, fit.z, partial(f.test.predict, fit.explanation), run.prediction
-                )
-                after[f.out] = (f.test.y - run.prediction - gain) / f.wide
-                jumps = [p.index for p in posteriors]
-                slopes = (
-                    drop_columns(f.test.jacobian(fit.explanation, fit.z, run), jumps) * (f.test.sd / f.wide)[:, None]
-                )
-                columns = np.hstack([drop_columns(fit.slopes, jumps), f.train.shared])
-                open_variance[f.out] = _open_variance(columns, fit.weight, slopes) + variance / f.wide**2
-        return after, open_variance
+                after[f.out], found = _discrepancy_residuals(self.search, forms, f.out, scale)
+                score += found
+                continue
+            fit = map_fit(f.train, verdict, self.search.fits[verdict].z, warm=True)
+            run = f.test.run(fit.explanation, fit.z)
+            # The level left out may be the one that determines a change point.
+            posteriors = change_point_posterior(f.train, fit)
+            gain, (variance, _, _) = average_over_change_points(
+                posteriors, fit.z, partial(f.test.predict, fit.explanation), run.prediction
+            )
+            after[f.out] = (f.test.y - run.prediction - gain) / f.wide
+            jumps = [p.index for p in posteriors]
+            slopes = drop_columns(f.test.jacobian(fit.explanation, fit.z, run), jumps) * scale[:, None]
+            columns = np.hstack([drop_columns(fit.slopes, jumps), f.train.shared])
+            alone = np.sqrt(1.0 + variance / f.wide**2) + np.zeros(f.wide.size)
+            score += _log_probability(after[f.out], _open_columns(columns, fit.weight, slopes), alone)
+        return after, score
 
 
-def _open_variance(columns: np.ndarray, weight: np.ndarray, slopes: np.ndarray) -> np.ndarray:
-    """Prediction variance, in units of the noise, after a fit to other readings.
+def _open_columns(columns: np.ndarray, weight: np.ndarray, slopes: np.ndarray) -> np.ndarray:
+    """Columns with a covariance of one through which predictions share their uncertainty, in units of the noise.
 
-    ``columns`` are the slopes of the fit, ``slopes`` the slopes of the predictions for its first coordinates.
+    ``columns`` are the slopes of a fit to other readings, ``slopes`` the slopes of the predictions for its first
+    coordinates.
     """
-    covariances = covariance(columns, weight)[: slopes.shape[1], : slopes.shape[1]]
-    return np.asarray(np.einsum("ij,jk,ik->i", slopes, covariances, slopes))
+    size, vectors = np.linalg.eigh(covariance(columns, weight)[: slopes.shape[1], : slopes.shape[1]])
+    return np.asarray(slopes @ (vectors * np.sqrt(np.maximum(size, 0.0))))
+
+
+def _log_probability(residual: np.ndarray, shared: np.ndarray, alone: np.ndarray) -> float:
+    """Log probability of residuals together: noise ``alone`` and errors through the ``shared`` columns."""
+    together = linear_fit(residual / alone, shared / alone[:, None])
+    return together.evidence - float(np.log(alone).sum())
 
 
 def _discrepancy_columns(search: Search) -> list[np.ndarray]:
@@ -150,21 +155,23 @@ def _discrepancy_columns(search: Search) -> list[np.ndarray]:
     return [shape.columns(search.space, search.values, search.discrepancy.scalings) for shape in shapes]
 
 
-def _discrepancy_residuals(search: Search, forms: list[np.ndarray], out: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Residuals and prediction variance of left-out readings; the other readings fit and weight the ``forms``."""
+def _discrepancy_residuals(
+    search: Search, forms: list[np.ndarray], out: np.ndarray, scale: np.ndarray
+) -> tuple[np.ndarray, float]:
+    """Residuals of left-out readings, times ``scale``, and their log probability; the other readings fit the forms."""
     problem, base = search.problem, search.discrepancy.base
-    log, residuals, variance = [], [], []
+    log, residuals, scores = [], [], []
     for form in forms:
         columns = np.hstack([base.slopes, problem.shared, form])
         fit = linear_fit(base.anchor[~out], columns[~out])
         new_columns = np.hstack([base.slopes, np.zeros_like(problem.shared), form])[out]
+        residual = (base.anchor[out] - new_columns @ fit.coefficients) * scale
+        shared = _open_columns(columns[~out], fit.weight, new_columns * scale[:, None])
         log.append(fit.evidence)
-        residuals.append(base.anchor[out] - new_columns @ fit.coefficients)
-        variance.append(_open_variance(columns[~out], fit.weight, new_columns))
-    chance = np.exp(np.array(log) - max(log))
-    chance = chance / chance.sum()
-    mean = chance @ np.array(residuals)
-    return mean, chance @ (np.array(variance) + (np.array(residuals) - mean) ** 2)
+        residuals.append(residual)
+        scores.append(_log_probability(residual, shared, np.ones(residual.size)))
+    weights = np.array(log) - np.logaddexp.reduce(log)
+    return np.exp(weights) @ np.array(residuals), float(np.logaddexp.reduce(weights + scores))
 
 
 def _folds(search: Search, only: str = "") -> tuple[str, np.ndarray]:

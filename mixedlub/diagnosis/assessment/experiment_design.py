@@ -20,6 +20,7 @@ from mixedlub.diagnosis.settings.assessment import (
     CHOICE_DRAWS,
     MOST_READINGS,
     MOST_RIVALS,
+    OUTSIDE,
     RIVAL_WEIGHT,
     STATED_DRAWS,
     TESTS_APART,
@@ -80,7 +81,7 @@ class Rivals:
     @property
     def weights(self) -> np.ndarray:
         """Probabilities of the rivals, which add up to one."""
-        share = np.array([max(self.judged.weights[k], 1e-12) for k in self.keys])
+        share = np.array([max(_inside(self.judged, k), 1e-12) for k in self.keys])
         return np.asarray(share / share.sum())
 
     def at(self, table: Table) -> list[Joint]:
@@ -89,10 +90,15 @@ class Rivals:
             return joint_predictions(self.search, self.keys, self.fits, table)
 
 
+def _inside(judged: Posterior, key: Explanation) -> float:
+    """Probability of an explanation without the share of causes outside the model space, which predicts no reading."""
+    return judged.weights[key] - OUTSIDE * key.is_discrepancy
+
+
 def rivals_of(search: Search, judged: Posterior, refined: dict[Explanation, Refined]) -> Rivals:
     """Explanations above WORTH_TESTING, unknown among them; with one left, the runner-up too."""
     able = [k for k in judged.weights if k.is_discrepancy or k in search.fits]
-    keys = [k for k in able if judged.weights[k] >= WORTH_TESTING][:MOST_RIVALS]
+    keys = [k for k in able if _inside(judged, k) >= WORTH_TESTING][:MOST_RIVALS]
     keys = keys if len(keys) > 1 else able[:2]
     named = [k for k in keys if not k.is_discrepancy]
     fits = spread_fits(search, [refined[k] if k in refined else refine(search, search.fits[k]) for k in named])

@@ -73,9 +73,8 @@ def posterior(search: Search, test: Mismatch, penalties: Mapping[Explanation, fl
         log[NOTHING] = best + np.log(TEST_MARGIN)
     top = max(log.values())
     total = sum(np.exp(v - top) for v in log.values())
-    inside = {key: (1.0 - OUTSIDE) * float(np.exp(v - top) / total) for key, v in log.items()}
-    inside[DISCREPANCY] += OUTSIDE
-    weights = dict(sorted(inside.items(), key=lambda item: -item[1]))
+    weights = {key: float(np.exp(v - top) / total) for key, v in sorted(log.items(), key=lambda item: -item[1])}
     verdict = next(iter(weights))
     tied = tuple(key for key, w in weights.items() if w >= TIE * weights[verdict])
+    weights = {key: (1.0 - OUTSIDE) * w + OUTSIDE * key.is_discrepancy for key, w in weights.items()}
     return Posterior(weights, verdict, tied)

@@ -27,7 +27,7 @@ from mixedlub.diagnosis.settings.law_error import (
     SIGNED_FORM_ERROR_FUNCTIONS,
     SIGNED_FORM_ERROR_LENGTH,
 )
-from mixedlub.recording.conditions import Coordinates
+from mixedlub.recording.conditions import PASSING, Coordinates
 
 
 def n_inexact(problem: Problem, explanation: Explanation) -> int:
@@ -105,7 +105,11 @@ class BaseError:
 
 
 def _functions(space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
-    return space.columns(values, BASE_ERROR_LENGTH, interactions=len(space.axes) > 1)
+    """Smooth functions of the numeric conditions: a law errs neither over time nor by the name of a specimen."""
+    only = tuple(axis.name for axis in space.axes if not axis.named and axis.name not in PASSING)
+    if not only:
+        return np.zeros((values[0].size, 0))
+    return space.columns(values, BASE_ERROR_LENGTH, only, interactions=len(only) > 1)
 
 
 def rms(net: np.ndarray) -> float:
