@@ -113,6 +113,8 @@ def import_files(files: Sequence[Path], out: Path, *, overwrite: bool = False, *
 def drafted(files: Sequence[Path], answers: Answers) -> tuple[Draft, dict[str, Any], list[Question]]:
     """Draft of a case before it is written, its answers with every likely one taken, and the questions of these."""
     opened, given = _opened(files, flat(answers))
+    for key, value in given.items():
+        refuse_wrong(key, value)
     draft = read(opened, given)
     taken: list[Question] = []
     while likely := [q for q in draft.questions if q.offered and q.key not in given]:

@@ -26,7 +26,7 @@ pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no chromium")
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
 MOST_CLICKS = 6
 TRACES = Path(profiles.__file__).parent / "traces"
-PATIENCE = 600_000
+PATIENCE = 60_000
 
 
 @pytest.fixture(scope="module")
@@ -91,7 +91,11 @@ class Clicks:
         """Fill inputs in turn; the tabulator leads from one to the next."""
         self.count += 1
         for key, text in texts.items():
-            page.locator(f"[name='{key}']").fill(text)
+            field = page.locator(f"[name='{key}']")
+            if not field.is_visible():
+                self.count += 1
+                page.locator("details", has=field).locator("summary").first.click()
+            field.fill(text)
 
 
 CHOICES = {"films": ("contact.geometry", "point"), "german": ("import.columns.friction_torque_Nm", "Reibmoment (Nm)")}
@@ -132,7 +136,7 @@ def test_a_recording_is_diagnosed_within_six_clicks(page, name):
 @pytest.mark.parametrize("name", sorted(set(MADE_UP) - {"driven_and_back_driven"}))
 def test_a_recording_leads_to_a_verdict(page, name):
     to_a_run(page, name)
-    page.wait_for_selector("#answer .verdict", timeout=PATIENCE)
+    page.wait_for_selector("#answer .verdict", timeout=10 * PATIENCE)
 
 
 @pytest.fixture(scope="module")
@@ -162,7 +166,7 @@ def test_from_a_dropped_file_to_a_verdict_its_files_and_added_readings(page, ser
     assert "driven_and_back_driven.csv" in page.locator(".busy").text_content()
     page.get_by_role("link", name="driven_and_back_driven.csv").first.click()
     assert page.url == address
-    page.wait_for_selector("#answer .verdict", timeout=PATIENCE)
+    page.wait_for_selector("#answer .verdict", timeout=10 * PATIENCE)
     assert "back driving" in page.locator("#answer .verdict").first.text_content()
 
     id = address.rpartition("/")[2]
@@ -191,7 +195,7 @@ def test_from_a_dropped_file_to_a_verdict_its_files_and_added_readings(page, ser
     assert "wrong.csv" in page.locator(".error").text_content()
     assert page.locator("#answer .verdict").count() == 1
     drop(page, "#add", ("next_tests.csv", filled(saved["next_tests.csv"].decode()).encode()))
-    page.wait_for_selector("#compared", timeout=PATIENCE)
+    page.wait_for_selector("#compared", timeout=10 * PATIENCE)
     before, after = page.locator("#compared .verdict").all_text_contents()
     campaign = json.loads((written.parent / "campaign.json").read_text(encoding="utf-8"))
     assert before == f"Before: {' + '.join(campaign['before']['verdict'])}".replace("_", " ")
@@ -218,7 +222,7 @@ def test_an_answer_out_of_range_is_one_sentence_and_the_form_is_kept(page):
     page.locator("[name='contact.radius_mm']").fill("9.5, inf")
     page.get_by_role("button", name="Update the preview").click()
     page.wait_for_url("**/recordings/*")
-    assert page.locator("[name='contact.radius_mm']").input_value() == "9.5, inf"
+    assert page.locator("[name='contact.radius_mm']").input_value() in ("9.5, inf", "[9.5, inf]")
 
 
 def test_traces_show_parameters_and_the_consequences_of_cutoffs(page, tmp_path):
@@ -256,7 +260,7 @@ def test_pairings_are_ranked_by_their_mean_loss(page, served):
     page.locator("[name='conditions.torque_Nm']").fill("50, 150")
     page.locator("[name='conditions.speed_rpm']").fill("500 to 3000 in 2")
     page.get_by_role("button", name="Run the study").click()
-    page.wait_for_selector("#ranking", timeout=PATIENCE)
+    page.wait_for_selector("#ranking", timeout=10 * PATIENCE)
     id = page.url.rpartition("/")[2]
     with page.expect_download() as waiting:
         page.get_by_role("link", name="results.csv").first.click()
