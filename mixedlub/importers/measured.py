@@ -60,8 +60,10 @@ def tables_of(channels: Sequence[tuple[str, str, np.ndarray]]) -> list[MeasuredT
     [('rig, 3 rows', ['Load (N)', 'T']), ('rig, 2 rows', ['Film (nm)'])]
     """
     grouped: dict[tuple[str, int], list[tuple[str, np.ndarray]]] = {}
+    dates = [np.fmin.reduce(values) for _, _, values in channels if values.dtype.kind == "M" and values.size]
+    first = min((date for date in dates if not np.isnat(date)), default=None)
     for table, header, values in channels:
-        found = _values(values)
+        found = _values(values, first)
         if found is not None and len(found):
             name = f"{header} (s)" if values.dtype.kind == "M" and split(header)[1] is None else header
             grouped.setdefault((table, len(found)), []).append((name, found))
@@ -75,13 +77,13 @@ def tables_of(channels: Sequence[tuple[str, str, np.ndarray]]) -> list[MeasuredT
     ]
 
 
-def _values(values: np.ndarray) -> np.ndarray | None:
-    """Numbers as floats, times as seconds since the first, or texts; None for other channels."""
+def _values(values: np.ndarray, first: np.datetime64 | None) -> np.ndarray | None:
+    """Numbers as floats, times as seconds since the first of the file, or texts; None for other channels."""
     values = np.asarray(values)
     if values.ndim != 1:
         return None
     if values.dtype.kind == "M":
-        return (values - values[:1]) / np.timedelta64(1, "ns") * 1e-9
+        return None if first is None else (values - first) / np.timedelta64(1, "ns") * 1e-9
     if values.dtype.kind in "iufb":
         return values.astype(float)
     texts = values.dtype.kind in "US" or all(isinstance(one, str | bytes) for one in values.tolist())

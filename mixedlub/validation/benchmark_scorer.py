@@ -47,36 +47,67 @@ def read_json(file: Path) -> Any:
 def read_answer(folder: Path) -> Case:
     """Answer to a case: verdict, probabilities and optional parts."""
     file = folder / "diagnosis.json"
-    record = read_json(file)
+    record = table_of(file, "the file", read_json(file))
     for key in ("verdict", "probabilities"):
         if key not in record:
             raise Wrong(f"{file}: key {key!r} is missing")
-    probabilities = record["probabilities"]
-    if not all(isinstance(p, int | float) and 0.0 <= p <= 1.0 for p in probabilities.values()):
+    verdict = ids_of(file, "verdict", record["verdict"])
+    tied, outliers = record.get("tied", []), record.get("outlier_runs", [])
+    if not isinstance(tied, list):
+        raise Wrong(f"{file}: tied must be a list of explanations")
+    probabilities = table_of(file, "probabilities", record["probabilities"])
+    if not all(type(p) in (int, float) and 0.0 <= p <= 1.0 for p in probabilities.values()):
         raise Wrong(f"{file}: probabilities must be numbers from 0 to 1")
-    verdict = names(record["verdict"])
+    detected = table_of(file, "mismatch", record.get("mismatch", {})).get("detected", verdict != {"none"})
+    if not isinstance(detected, bool):
+        raise Wrong(f"{file}: mismatch.detected must be true or false")
+    located = table_of(file, "location", record.get("location", {})).get("rows", {})
+    try:
+        location = {int(run): float(z) for run, z in table_of(file, "location.rows", located).items()}
+    except (TypeError, ValueError, OverflowError):
+        raise Wrong(f"{file}: location.rows must be numbers by run") from None
+    if not (isinstance(outliers, list) and all(type(run) is int for run in outliers)):
+        raise Wrong(f"{file}: outlier_runs must be a list of runs")
     return {
         "verdict": verdict,
-        "tied": [names(one) for one in record.get("tied", [])],
+        "tied": [ids_of(file, "tied", one) for one in tied],
         "probabilities": probabilities,
-        "detected": record.get("mismatch", {}).get("detected", verdict != {"none"}),
-        "outliers": {int(run) for run in record.get("outlier_runs", [])},
-        "location": {int(run): float(z) for run, z in record.get("location", {}).get("rows", {}).items()},
+        "detected": detected,
+        "outliers": set(outliers),
+        "location": location,
         "predictions": read_predictions(folder / "predictions.csv"),
     }
+
+
+def table_of(file: Path, key: str, value: Any) -> Case:
+    """Value that must be a JSON object."""
+    if not isinstance(value, dict):
+        raise Wrong(f"{file}: {key} must be an object with keys")
+    return value
+
+
+def ids_of(file: Path, key: str, label: Any) -> frozenset[str]:
+    """Ids of an explanation of an answer."""
+    ids = [label] if isinstance(label, str) else label
+    if not (isinstance(ids, list) and ids and all(isinstance(one, str) for one in ids)):
+        raise Wrong(f"{file}: an explanation in {key} must be an id or a list of ids")
+    return names(ids)
 
 
 def read_predictions(file: Path) -> dict[int, dict[str, float]]:
     """Predicted readings by run; empty without a file."""
     if not file.exists():
         return {}
-    with file.open(encoding="utf-8", newline="") as stream:
-        rows = list(csv.DictReader(stream))
+    wanted = ("predicted", "low90", "high90")
     try:
-        wanted = ("calibrated", "predicted", "low90", "high90")
-        return {int(row["run"]): {name: float(row[name]) for name in wanted} for row in rows}
-    except (KeyError, TypeError, ValueError) as error:
-        raise Wrong(f"{file}: needs numbers in run, calibrated, predicted, low90 and high90 ({error})") from None
+        with file.open(encoding="utf-8", newline="") as stream:
+            found = {int(row["run"]): {name: float(row[name]) for name in wanted} for row in csv.DictReader(stream)}
+    except (KeyError, TypeError, ValueError, csv.Error) as error:
+        raise Wrong(f"{file}: needs numbers in run, predicted, low90 and high90 ({error})") from None
+    for run, one in found.items():
+        if not -math.inf < one["low90"] <= one["predicted"] <= one["high90"] < math.inf:
+            raise Wrong(f"{file}: run {run} needs finite numbers with low90 <= predicted <= high90")
+    return found
 
 
 def read_truth(folder: Path) -> Case:
@@ -120,12 +151,13 @@ def log_score(truth: Case, answer: Case, about: Case) -> float:
 
 
 def held_ratio(truth: Case, answer: Case) -> float:
-    """Rms error of the predictions over the error of the calibrated model, at withheld conditions."""
-    squares = {"predicted": 0.0, "calibrated": 0.0}
+    """Rms error of the predictions over the error of the base model, at withheld conditions; 1 without predictions."""
+    squares = {"predicted": 0.0, "base": 0.0}
     for run, row in withheld(truth):
-        for column in squares:
-            squares[column] += ((predicted(truth, answer, run)[column] - row["truth"]) / row["sd"]) ** 2
-    return math.sqrt(squares["predicted"] / squares["calibrated"]) if squares["calibrated"] > 0 else math.nan
+        told = predicted(truth, answer, run)["predicted"] if answer["predictions"] else row["base"]
+        for column, value in (("predicted", told), ("base", row["base"])):
+            squares[column] += ((value - row["truth"]) / row["sd"]) ** 2
+    return math.sqrt(squares["predicted"] / squares["base"]) if squares["base"] > 0 else math.nan
 
 
 def coverage(truth: Case, answer: Case) -> float:
@@ -184,7 +216,8 @@ def figures(cases: list[tuple[Case, Case]], about: Case) -> list[dict[str, Any]]
     ]
     spoiled = [(t, a, set(t["outliers"])) for t, a in cases]
     clean = {t["case"]: sum(not row["withheld"] for row in t["rows"].values()) - len(t["outliers"]) for t, _ in cases}
-    told = [(t, a) for t, a in of(some) if a["predictions"]]
+    told = of(some) if any(a["predictions"] for _, a in cases) else []
+    ties = [len({a["verdict"], *a["tied"]}) for _, a in of(one)]
     places = [location(t, a) for t, a in of(some | {"unknown"})]
     shares = {
         "right": [float(is_right(t, a, about)) for t, a in of(one, clear=True)],
@@ -207,9 +240,11 @@ def figures(cases: list[tuple[Case, Case]], about: Case) -> list[dict[str, Any]]
     logs = [log_score(t, a, about) for t, a in cases]
     known = [value for value in places if not math.isnan(value)]
     return [
-        *rows,
+        *rows[:2],
+        row("ties", sum(ties) / len(ties) if ties else math.nan, len(ties)),
+        *rows[2:],
         row("outliers_found", found / n_spoiled if n_spoiled else math.nan, n_spoiled, True),
-        row("outliers_false", wrongly / n_clean, n_clean, True),
+        row("outliers_false", min(wrongly / n_clean, 1.0), n_clean, True),
         row("held_out", median(ratios) if ratios else math.nan, len(ratios)),
         row("coverage", sum(covered) / len(covered) if covered else math.nan, len(covered)),
         row("location", sum(known) / len(known) if known else math.nan, len(known)),
@@ -229,6 +264,7 @@ def row(key: str, value: float, count: int, share: bool = False) -> dict[str, An
 TEXTS = {
     "right": "right verdict, one effect, identifiable",
     "tied": "right or honestly tied, one effect, all",
+    "ties": "explanations named where one effect is hidden",
     "pair_both": "both effects of a pair named",
     "pair_exact": "pair named exactly",
     "none": "none where nothing is missing",
@@ -239,7 +275,7 @@ TEXTS = {
     "claims": "claims above 0.9 that are right",
     "outliers_found": "outlier readings found",
     "outliers_false": "good readings flagged as outliers",
-    "held_out": "withheld: error of predicted over calibrated",
+    "held_out": "withheld: error of predicted over the base model",
     "coverage": "90 % predictive intervals cover",
     "location": "location AUROC",
     "log_score": "log score of the probabilities, a case",

@@ -86,6 +86,54 @@ def test_an_mf4_file_joins_slow_channels_to_the_fast_clock(tmp_path):
         open_file(path, {"import.sheet": "grup 2"})
 
 
+@needs("asammdf")
+def test_invalid_samples_of_an_mf4_file_leave_a_gap_in_their_own_row(tmp_path):
+    """Load is invalid from 1 to 3 s, speed from 6 to 8 s: at 5 s stand the load and the speed of 5 s."""
+    from asammdf import MDF, Signal
+
+    clock = np.arange(10.0)
+    invalid = {"Load": (1, 2, 3), "Speed": (6, 7, 8), "Remark": (6,)}
+    values = {"Load": 10 * np.arange(10), "Speed": clock, "Remark": np.array([b"run"] * 10)}
+    signals = [
+        Signal(values[name], clock, name=name, encoding="utf-8", invalidation_bits=np.isin(clock, rows))
+        for name, rows in invalid.items()
+    ]
+    with MDF(version="4.10") as file:
+        file.append(signals)
+        file.save(tmp_path / "t.mf4", overwrite=True)
+    found = cells(tmp_path / "t.mf4")
+    assert np.array_equal(found["Time (s)"].values, clock)
+    assert np.array_equal(np.flatnonzero(np.isnan(found["Load"].values)), [1, 2, 3])
+    assert np.array_equal(np.flatnonzero(np.isnan(found["Speed"].values)), [6, 7, 8])
+    assert (found["Load"].values[5], found["Speed"].values[5]) == (50.0, 5.0)
+    assert [found["Remark"][row] for row in (5, 6)] == ["run", ""]
+
+
+@needs("nptdms")
+@pytest.mark.parametrize("kind", ["waveform", "dates"])
+def test_clocks_of_groups_that_start_later_keep_their_delay(kind, tmp_path):
+    """A slow group that starts 40 s after the fast one: its first temperature belongs to 40 s."""
+    start, fast, slow = np.datetime64("2024-05-01T10:00:00"), np.arange(200) * 0.5, np.arange(30) * 2.0
+    later = start + np.timedelta64(40, "s")
+    channels = []
+    for group, name, since, times in (("fast", "Speed", start, fast), ("slow", "Temperature", later, slow)):
+        facts = {"wf_start_time": since, "wf_increment": times[1], "wf_start_offset": 0.0}
+        if kind == "dates":
+            channels.append((group, "Time", since + (1000 * times).astype("timedelta64[ms]"), {}))
+        channels.append((group, name, times, facts if kind == "waveform" else {}))
+    found = cells(tdms(tmp_path / "t.tdms", channels))
+    assert (found["Time (s)"].values[0], found["Time (s)"].values[-1]) == pytest.approx((40.0, 98.0))
+    assert np.allclose(found["Temperature"].values, found["Time (s)"].values - 40.0, atol=1e-6)
+
+
+def test_a_single_signal_of_a_structure_with_time_keeps_its_label(tmp_path):
+    log = {"time": TIME, "signals": {"values": SPEED, "dimensions": 1.0, "label": "Speed_rpm"}}
+    savemat(tmp_path / "t.mat", {"log": log}, oned_as="column")
+    found = cells(tmp_path / "t.mat")
+    assert list(found) == ["time", "Speed_rpm"]
+    assert np.array_equal(found["Speed_rpm"].values, SPEED)
+
+
 FORMS = {
     "vectors": {"time_s": TIME, "speed_rpm": SPEED, "friction_torque_Nm": TORQUE, "Ts": 0.5},
     "struct": {"rig": {"Time": TIME, "Speed": SPEED, "M": TORQUE, "units": {"Time": "s", "Speed": "rpm", "M": "Nm"}}},

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from mixedlub.validation.answers import read_answer, read_truth
-from mixedlub.validation.benchmark_scorer import scored, wilson
+from mixedlub.validation.benchmark_scorer import Wrong, scored, wilson
+from mixedlub.validation.benchmark_scorer import read_answer as read_entry
 from mixedlub.validation.export import export
 from mixedlub.validation.intervals import wilson as scipy_wilson
 from mixedlub.validation.planted import FORMS, MEASUREMENT, OUTSIDE
@@ -107,12 +108,94 @@ def test_an_entry_is_scored_as_the_package_scores_it(exported, entered):
     folders = sorted((exported / "benchmark" / "blind").iterdir())
     pairs = [(read_truth(exported / "sealed" / f.name), read_answer(entered / f.name)) for f in folders]
     expected = {row.key: row for row in score(pairs, "entry", about["ids"]).rows}
-    assert len(found) == 16
-    assert run.stdout.count("\n") == 17
+    assert len(found) == 17
+    assert run.stdout.count("\n") == 18
     for key, row in found.items():
         own = expected[key]
+        if key == "held_out":  # The package divides by the calibrated model of the answer, which is its own.
+            assert row["value"] != pytest.approx(own.value)
+            continue
         assert row["count"] == own.count or key == "location", key
         assert np.isclose(np.nan if row["value"] is None else row["value"], own.value, rtol=1e-9, equal_nan=True), key
+
+
+ABOUT = {"ids": ["sensor_gain"], "measurement": [], "laws": [], "follows_other_laws": False}
+PLAIN = {"verdict": ["sensor_gain"], "probabilities": {"sensor_gain": 0.9}}
+HEAD = "run,calibrated,predicted,low90,high90\n"
+
+
+def entry(place, record, predictions=None):
+    """Folder with an answer."""
+    place.mkdir(parents=True)
+    (place / "diagnosis.json").write_text(json.dumps(record))
+    if predictions is not None:
+        (place / "predictions.csv").write_text(HEAD + predictions)
+    return place
+
+
+def made_up(root, cases):
+    """Truths of cases whose base model misses each withheld reading by 2."""
+    for name in cases:
+        rows = {"run": [1, 2, 3], "withheld": [False, True, True], "truth": [1, 5, 6], "base": [1, 7, 8], "sd": [1] * 3}
+        truth = {"case": name, "class": "single", "identifiable": True, "label": "sensor_gain", "outliers": []}
+        (root / name).mkdir(parents=True)
+        (root / name / "truth.json").write_text(json.dumps({**truth, "rows": rows}))
+    return root
+
+
+def figures_of(root, answers):
+    return {row["key"]: row for row in scored(answers, root, ABOUT)}
+
+
+@pytest.mark.parametrize("calibrated", [7, 500])
+def test_predictions_are_judged_by_the_base_model_of_the_truth(tmp_path, calibrated):
+    """Errors of 1 where the base model errs by 2, whatever the entrant calls calibrated; two cases lack predictions."""
+    truths = made_up(tmp_path / "truths", "abc")
+    answers = tmp_path / "answers"
+    entry(answers / "a", PLAIN, f"2,{calibrated},6,0,9\n3,{calibrated},7,0,9\n")
+    for name in "bc":
+        entry(answers / name, {**PLAIN, "tied": [["sensor_gain"], ["none"], "unknown"]})
+    found = figures_of(truths, answers)
+    assert (found["held_out"]["value"], found["held_out"]["count"]) == (1.0, 3)
+    assert found["ties"]["value"] == pytest.approx((1 + 3 + 3) / 3)
+    alone = figures_of(made_up(tmp_path / "one", "a"), answers)
+    assert alone["held_out"]["value"] == pytest.approx(0.5)
+
+
+def test_more_outliers_than_readings_are_a_share_of_one(tmp_path):
+    answers = tmp_path / "answers"
+    entry(answers / "a", {**PLAIN, "outlier_runs": [1, 2, 8, 9]})
+    found = figures_of(made_up(tmp_path / "truths", "a"), answers)
+    assert (found["outliers_false"]["value"], found["outliers_false"]["count"]) == (1.0, 1)
+
+
+@pytest.mark.parametrize("row", ["2,7,nan,0,9", "2,7,6,0,inf", "2,7,6,9,0", "2,7,12,0,9", "2,7,,0,9"])
+def test_a_prediction_is_finite_and_in_its_interval(tmp_path, row):
+    with pytest.raises(Wrong, match=r"predictions\.csv: .*low90"):
+        read_entry(entry(tmp_path / "a", PLAIN, row))
+
+
+@pytest.mark.parametrize(
+    ("record", "rule"),
+    [
+        (3, "the file must be an object"),
+        ({**PLAIN, "verdict": None}, "in verdict must be an id"),
+        ({**PLAIN, "verdict": []}, "in verdict must be an id"),
+        ({**PLAIN, "tied": None}, "tied must be a list"),
+        ({**PLAIN, "tied": [3]}, "in tied must be an id"),
+        ({**PLAIN, "probabilities": [1]}, "probabilities must be an object"),
+        ({**PLAIN, "probabilities": {"none": "1"}}, "numbers from 0 to 1"),
+        ({**PLAIN, "mismatch": True}, "mismatch must be an object"),
+        ({**PLAIN, "mismatch": {"detected": "no"}}, "mismatch.detected must be true or false"),
+        ({**PLAIN, "outlier_runs": None}, "outlier_runs must be a list of runs"),
+        ({**PLAIN, "outlier_runs": "35"}, "outlier_runs must be a list of runs"),
+        ({**PLAIN, "location": {"rows": {"first": 1.0}}}, "location.rows must be numbers by run"),
+        ({**PLAIN, "location": {"rows": [1.0]}}, "location.rows must be an object"),
+    ],
+)
+def test_a_malformed_answer_is_one_sentence_with_the_file(tmp_path, record, rule):
+    with pytest.raises(Wrong, match=rf"diagnosis\.json: .*{rule}"):
+        read_entry(entry(tmp_path / "a", record))
 
 
 def test_the_form_of_answers_is_checked_without_the_truth(exported, entered, tmp_path):

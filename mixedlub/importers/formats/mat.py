@@ -62,8 +62,7 @@ def _channels(fields: Mapping[str, Any], table: str) -> Iterator[tuple[str, str,
             yield from _of_struct(name, value, table)
         elif _is_list_of_structs(value):
             for number, one in enumerate(value):
-                label = str(_first(one, LABELS) or f"{name}{number + 1}")
-                yield from _of_struct(label, one, table, times)
+                yield from _of_struct(_label(one, f"{name}{number + 1}"), one, table, times)
         elif isinstance(value, np.ndarray) and value.ndim == 1:
             yield table, named(name, _of(units, name, 0)), value
         elif isinstance(value, np.ndarray) and value.ndim == 2:
@@ -90,7 +89,12 @@ def _of_struct(
     place = table if clock is None or clock is times else name
     if isinstance(own, np.ndarray):
         yield place, "Time (s)", own
-    yield place, named(name, _of(_first(fields, UNITS), name, 0)), values
+    yield place, named(_label(fields, name), _of(_first(fields, UNITS), name, 0)), values
+
+
+def _label(fields: Mapping[str, Any], name: str) -> str:
+    label = _first(fields, LABELS)
+    return label if isinstance(label, str) and label else name
 
 
 def _first(fields: Mapping[str, Any], words: tuple[str, ...]) -> Any:

@@ -40,8 +40,21 @@ def _channels(file: Any, number: int, table: str) -> Iterator[tuple[str, str, np
     for place in range(len(group.channels)):
         if place == file.masters_db.get(number):
             continue
-        signal = file.get(group=number, index=place)
+        # Without its invalid samples a channel loses rows, and no longer fits the time of its group.
+        signal = file.get(group=number, index=place, ignore_invalidation_bits=True)
         if not timed:
             timed = True
             yield table, "Time (s)", np.asarray(signal.timestamps, dtype=float)
-        yield table, named(signal.name.partition("\\")[0], signal.unit), np.asarray(signal.samples)
+        yield (
+            table,
+            named(signal.name.partition("\\")[0], signal.unit),
+            _valid(np.asarray(signal.samples), signal.invalidation_bits),
+        )
+
+
+def _valid(samples: np.ndarray, invalid: np.ndarray | None) -> np.ndarray:
+    """Samples of a channel, nan or an empty text where they are invalid."""
+    if invalid is None or samples.ndim != 1 or samples.dtype.kind not in "iufbSU":
+        return samples
+    empty = samples.dtype.type() if samples.dtype.kind in "SU" else np.nan
+    return np.where(np.asarray(invalid, dtype=bool), empty, samples)

@@ -29,14 +29,16 @@ def tables(data: bytes, where: str) -> list[MeasuredTable]:
         raise refuse_without("npTDMS", "a LabVIEW file (.tdms)", where) from None
     logging.getLogger("nptdms").setLevel(logging.ERROR)
     with foreign_parser("TDMS", where):
-        return tables_of([one for group in TdmsFile.read(io.BytesIO(data)).groups() for one in _channels(group)])
+        groups = TdmsFile.read(io.BytesIO(data)).groups()
+        facts = [channel.properties for group in groups for channel in group.channels() if len(channel)]
+        first = min((one["wf_start_time"] for one in facts if "wf_start_time" in one), default=None)
+        return tables_of([one for group in groups for one in _channels(group, first)])
 
 
-def _channels(group: Any) -> Iterator[tuple[str, str, np.ndarray]]:
-    """Channels of a group, with a time before the channels of each waveform clock."""
+def _channels(group: Any, first: Any) -> Iterator[tuple[str, str, np.ndarray]]:
+    """Channels of a group, with a time since the first start before the channels of each waveform clock."""
     clocks: dict[tuple[int, float, float], str] = {}
     channels = [channel for channel in group.channels() if len(channel)]
-    starts = [channel.properties["wf_start_time"] for channel in channels if "wf_start_time" in channel.properties]
     for channel in channels:
         facts = channel.properties
         unit = next((facts[key] for key in UNITS if facts.get(key)), "")
@@ -45,7 +47,7 @@ def _channels(group: Any) -> Iterator[tuple[str, str, np.ndarray]]:
         if step > 0.0 and facts.get("wf_xname", "Time") in ("", "Time"):
             start = float(facts.get("wf_start_offset", 0.0) or 0.0)
             if "wf_start_time" in facts:
-                start += float((facts["wf_start_time"] - min(starts)) / np.timedelta64(1, "us")) * 1e-6
+                start += float((facts["wf_start_time"] - first) / np.timedelta64(1, "us")) * 1e-6
             clock = (len(channel), step, start)
             if clock not in clocks:
                 clocks[clock] = table = group.name if not clocks else f"{group.name}, clock {len(clocks) + 1}"
