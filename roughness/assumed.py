@@ -7,7 +7,8 @@ mean absolute slope m with the rms roughness (um) are
 
 (C. J. Tanner, M. Fahoum, Wear 36 (1976) 299; V. W. Antonetti, T. D. Whittle, R. E. Simons, ASME HTD 170 (1991) 35;
 M. A. Lambert, L. S. Fletcher, J. Thermophys. Heat Transfer 11 (1997) 129; as collected by M. Bahrami et al., Appl.
-Mech. Rev. 59 (2006) 1). The curvature follows the slope as on traces after a short cut-off of 2.5 um.
+Mech. Rev. 59 (2006) 1; not checked against the three papers). The curvature follows the slope as on traces after a
+short cut-off of 2.5 um.
 """
 
 from __future__ import annotations
@@ -26,10 +27,13 @@ from roughness.moments import Moments
 SLOPES = ((0.152, 0.4), (0.124, 0.743), (0.076, 0.52))
 """Source. Factor and exponent of the mean slope over Rq (um); Bahrami et al. 2006, table 1."""
 CURVATURE = (0.33, 0.75, 1.7)
-"""Measured (test_assumed.py). Lowest, middle and highest m4/m2 (1/um2) of traces after a short cut-off of 2.5 um."""
+"""Judgement. Lowest, middle (their geometric mean) and highest m4/m2 (1/um2); eleven traces after 2.5 um have 0.33 to
+1.5."""
+CORRELATED = 1.6e-6
+"""Source. Largest Rq (m) of the correlation of Antonetti et al.; Bahrami et al. 2006, table 1."""
 RANGE = (0.02e-6, 10e-6)
 """Judgement. Range of Rq (m) in which the assumption is meant: polished to coarsely turned."""
-PER_RQ = {"Ra": (1.15, math.sqrt(math.pi / 2.0), 1.4), "Rq": (1.0, 1.0, 1.0), "Rz": (1 / 7.0, 1 / 5.0, 1 / 3.4)}
+PER_RQ = {"Ra": (1.11, math.sqrt(math.pi / 2.0), 1.4), "Rq": (1.0, 1.0, 1.0), "Rz": (1 / 7.0, 1 / 5.0, 1 / 3.4)}
 """Judgement. Lowest, middle and highest Rq over the known number: of Gaussian heights in the middle; finishes from
 turned to plateau-honed have Rq/Ra 1.11 to 1.4 and Rz/Rq 3.4 to 7."""
 LEAST_NAYAK = 1.5
@@ -98,6 +102,8 @@ def assumed_moments(name: str, value: float) -> AssumedMoments:
         "machined surfaces of that roughness (three published correlations), and a curvature as traces have it at a "
         "short cut-off of 2.5 um are assumed"
     )
+    if middle > CORRELATED:
+        words += f"; Rq lies above {CORRELATED * 1e6:g} um, beyond the range of one of the three correlations"
     if raised > 1.0:
         words += "; the curvature is raised to the least of a Gaussian surface"
     return AssumedMoments(m0, m2, m4 * raised, tuple(axis for axis in axes if any(axis.values())), words)

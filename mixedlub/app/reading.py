@@ -20,6 +20,8 @@ from mixedlub.schema.oil_file import oil_names, shipped_oil
 from mixedlub.schema.toml_file import read_toml, toml_value
 from profiles.errors import InputError
 
+NO_PATHS = ("title", "description", "name")
+"""Last parts of keys that hold free text, as the headers of columns do; every other text may be a path."""
 ROWS = 8
 """Judgement. Rows of a table in the preview."""
 KIND, QUANTITY = "kind", "recording.quantity"
@@ -57,9 +59,9 @@ def refuse_foreign_files(values: Any, where: str = "") -> None:
     elif isinstance(values, list | tuple):
         for value in values:
             refuse_foreign_files(value, where)
-    elif isinstance(values, str):
+    elif isinstance(values, str) and where.rpartition(".")[2] not in NO_PATHS and not where.startswith(COLUMNS):
         paths = (PurePosixPath(values), PureWindowsPath(values))
-        if any(path.is_absolute() or path.drive or ".." in path.parts for path in paths):
+        if any(path.is_absolute() or ".." in path.parts for path in paths):
             raise InputError("names a file outside this page; send the file, and give its bare name", where=where)
 
 

@@ -192,6 +192,16 @@ def desk(folder: Path) -> Desk:
     return Desk(store, Jobs(store), Worker(), templates)
 
 
+def hosts_of(port: int) -> list[str]:
+    """Values of the header Host by which a browser calls the page; it leaves port 80 out.
+
+    >>> hosts_of(8765)
+    ['127.0.0.1:8765', 'localhost:8765']
+    """
+    names = [HOST, "localhost"]
+    return [f"{name}:{port}" for name in names] + (names if port == 80 else [])
+
+
 def serve(folder: Path, port: int, browser: bool, say: Callable[[str], None]) -> None:
     """Serve the page on this machine until Ctrl-C."""
     with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as listening:
@@ -203,7 +213,7 @@ def serve(folder: Path, port: int, browser: bool, say: Callable[[str], None]) ->
             rule = f"cannot be used ({error.strerror}); name another port, or 0 for a free one"
             raise InputError(rule, where="--port", value=port) from None
         port = listening.getsockname()[1]
-        app = application(desk(folder), [f"{name}:{port}" for name in (HOST, "localhost")])
+        app = application(desk(folder), hosts_of(port))
         address = f"http://{HOST}:{port}/"
         say(f"{address}  (work in {folder}; Ctrl-C ends the page)")
         if browser:

@@ -246,6 +246,10 @@ def named_options(file: Path | None = None, read: Profile | HeightMap | None = N
 
 def _stem(file: Path) -> str:
     """Name of the results of a surface."""
+    from roughness.assumed import one_number
+
+    if one_number(str(file)):
+        return str(file).replace(":", "_").replace(" ", "")
     bare = file.with_suffix("") if file.suffix.lower() == ".gz" else file
     return bare.stem.rpartition(":")[2] if bare.stem.startswith("shipped:") else bare.stem.replace(":", "_")
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from itertools import combinations
 
 import numpy as np
 
@@ -17,6 +18,8 @@ from profiles.errors import InputError
 
 AGREES = 0.01
 """Judgement. Difference of two centre distances of one planet, in modules, above which they are two distances."""
+SAME_SHAPE = 1e-6
+"""Judgement. Difference over module up to which profile shifts or tip diameters of one wheel are the same."""
 MOST_PLANETS = 24
 """Judgement. Largest number of planets named as one that can be assembled."""
 
@@ -128,7 +131,8 @@ class PlanetSet:
         return total.denominator == 1
 
     def check(self, least: float) -> None:
-        """Raise an error for planets that cannot be assembled or come nearer than ``least`` (m) to each other."""
+        """Raise an error for planets of two shapes, not assembled, or nearer than ``least`` (m) to each other."""
+        self._check_shapes()
         if not self.can_be_assembled(self.count):
             fitting = [str(n) for n in range(1, MOST_PLANETS + 1) if self.can_be_assembled(n)]
             rule = f"so many equally spaced planets cannot be assembled{self._sum()}; {', '.join(fitting)} can"
@@ -144,6 +148,29 @@ class PlanetSet:
                 says = f"overlap by {-1e3 * gap:.4g} mm" if gap < 0 else f"have only {1e3 * gap:.4g} mm between them"
                 rule = f"the tips of neighbouring planets ({' and '.join(dict.fromkeys((first, second)))}) {says}"
                 raise InputError(rule, where="planet_count", value=self.count)
+
+    def _check_shapes(self) -> None:
+        """Raise an error for a planet that has two shapes in two meshes as one wheel.
+
+        A planet is never a ring, so its profile shift has one sign in all meshes.
+        """
+        for planet in self.train.planets:
+            for first, second in combinations(self._of(planet), 2):
+                (one, i), (other, j) = ((self.pairs[own.name], own.wheels.index(planet)) for own in (first, second))
+                if _wheel(one, i) != _wheel(other, j):
+                    continue
+                shapes = {"profile_shift": (one.profile_shift[i], other.profile_shift[j])}
+                if one.tip_radius is not None and other.tip_radius is not None:
+                    scale = 2.0 / one.normal_module
+                    shapes["tip_diameter_mm"] = (scale * one.tip_radius[i], scale * other.tip_radius[j])
+                for key, (here, there) in shapes.items():
+                    if abs(here - there) > SAME_SHAPE:
+                        unit = 1.0 if key == "profile_shift" else 1e3 * one.normal_module
+                        rule = (
+                            f"{planet} is one wheel, but has {key} {here * unit:.6g} in the mesh {first.name} and "
+                            f"{there * unit:.6g} in the mesh {second.name}: give one value"
+                        )
+                        raise InputError(rule, where=f"meshes.{second.name}.gears.{key}")
 
     def _neighbours(self) -> Iterator[tuple[str, str, float]]:
         """Pairs of planets of neighbouring groups, with the sum of their tip radii (m)."""
@@ -193,3 +220,9 @@ class PlanetSet:
                 total = total + towards * (1j * tangential - np.abs(tangential) * math.tan(pair.working_pressure_angle))
             found[planet] = total
         return found
+
+
+def _wheel(pair: GearPair, index: int) -> tuple[float, ...]:
+    """Teeth, module, pressure angle and helix angle of a wheel, alike for the same wheel in two meshes."""
+    sizes = (pair.normal_module * 1e3, pair.pressure_angle, abs(pair.helix_angle))
+    return (float(pair.teeth[index]), *(round(size, 9) for size in sizes))

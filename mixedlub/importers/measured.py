@@ -137,4 +137,4 @@ def is_numeric_table(table: MeasuredTable) -> bool:
 
 def refuse_without(package: str, what: str, where: str) -> InputError:
     """Error for a file that needs an absent optional package."""
-    return InputError(f"is {what}, read by the package {package}: pip install 'mixedlub[rig-files]'", where=where)
+    return InputError(f"is {what}, read by the package {package}: pip install '.[rig-files]' in the clone", where=where)

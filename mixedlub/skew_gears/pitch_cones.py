@@ -357,7 +357,8 @@ def _root(misfit: Callable[[float], float], start: float, low: float, high: floa
         except (NoPitchConesError, ZeroDivisionError):
             return math.nan
 
-    angles = np.linspace(low, high, STEPS)
+    # Small offsets have their zero near the lower end.
+    angles = np.geomspace(low, high, STEPS)
     values = np.array([value(angle) for angle in angles])
     with np.errstate(invalid="ignore"):
         found = np.flatnonzero(values[:-1] * values[1:] <= 0)

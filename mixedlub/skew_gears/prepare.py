@@ -139,7 +139,7 @@ def _blank(basic: Basic, file: BevelFile, where: str) -> Blank:
             raise InputError(f"there are no pitch cones: {error}", where=where) from None
         most = largest_offset(basic) * 1e3
         rule = f"there are no pitch cones with this offset: {error}"
-        rule += f"; the largest that has them is {most:.4g} mm" if most > 0.0 else "; nor with any smaller one"
+        rule += f"; the largest that has them is {most:.4g} mm" if most > 0.0 else "; nor was a smaller one found"
         raise InputError(rule, where=where if where.endswith("_mm") else "gears.offset_mm", value=offset) from None
     except ValueError:
         raise InputError("the numbers give no blank; look for one far out of range", where=where) from None

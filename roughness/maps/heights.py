@@ -11,6 +11,9 @@ from profiles import InputError
 from profiles.maps import HeightMap
 from roughness.parameters import SEVEN_POINTS
 
+FLAT = 1e-12
+"""Judgement. Range of levelled heights over the largest height up to which they are rounding noise."""
+
 
 @dataclass(frozen=True)
 class HeightParameters:
@@ -42,6 +45,12 @@ def known_heights(area: HeightMap) -> np.ndarray:
     return about_mean
 
 
+def refuse_flat(levelled: np.ndarray, area: HeightMap) -> None:
+    """Raise an error for a map of which the levelled heights are rounding noise."""
+    if np.nanmax(levelled) - np.nanmin(levelled) <= FLAT * np.nanmax(np.abs(area.heights)):
+        raise InputError("is flat: it has no roughness", where=f"map {area.name!r}")
+
+
 def height_parameters(area: HeightMap) -> HeightParameters:
     r"""Height parameters of a map, holes left out.
 
@@ -57,10 +66,9 @@ def height_parameters(area: HeightMap) -> HeightParameters:
     (0.707106781, 2.0, 1.5)
     """
     z = known_heights(area)
+    refuse_flat(z, area)
     square = z * z
     m2 = float(square.mean())
-    if m2 <= 0.0:
-        raise InputError("is flat: it has no roughness", where=f"map {area.name!r}")
     sq, top, bottom = math.sqrt(m2), float(z.max()), float(z.min())
     return HeightParameters(
         Sa=float(np.abs(z).mean()),

@@ -10,6 +10,7 @@ from profiles import InputError
 from profiles.errors import nearest
 from profiles.maps import HeightMap
 from roughness.filters import gaussian_kernel
+from roughness.maps.heights import refuse_flat
 from roughness.maps.holes import filled
 
 LONG_CUTOFF, SHORT_CUTOFF = 0.8e-3, 2.5e-6
@@ -88,6 +89,7 @@ def areal_roughness(
     50.0
     """
     heights = _levelled(checked(area), form)
+    refuse_flat(heights, area)
     if short_cutoff is not None:
         heights = _smoothed(heights, area, short_cutoff)
     if cutoff is not None:

@@ -9,6 +9,7 @@ import numpy as np
 
 from profiles import InputError
 from profiles.maps import HeightMap
+from roughness.maps.heights import refuse_flat
 
 LEVEL = 0.2
 """Source. ISO 25178-2:2012, 4.2: value of the autocorrelation at the ends of its central lobe."""
@@ -47,6 +48,7 @@ def areal_autocorrelation(area: HeightMap) -> np.ndarray:
     """
     from scipy.fft import irfft2, next_fast_len, rfft2
 
+    refuse_flat(area.heights, area)
     there = np.isfinite(area.heights)
     z = np.where(there, area.heights - area.heights[there].mean(), 0.0)
     rows, columns = z.shape
@@ -67,10 +69,7 @@ def areal_autocorrelation(area: HeightMap) -> np.ndarray:
         counts = np.round(pairs(there.astype(float)))
     with np.errstate(invalid="ignore", divide="ignore"):
         found = np.where(counts > 0.0, pairs(z) / counts, np.nan)
-    variance = found[0, half[1]]
-    if not variance > 0.0:
-        raise InputError("is flat: it has no roughness", where=f"map {area.name!r}")
-    normalised: np.ndarray = found / variance
+    normalised: np.ndarray = found / found[0, half[1]]
     return normalised
 
 

@@ -121,6 +121,26 @@ def test_a_study_may_not_name_a_file_elsewhere():
         study_form.study_text(study)
 
 
+@pytest.mark.parametrize(
+    ("key", "text"),
+    [
+        ("title", "A: ground vs polished"),
+        ("rig.name", "../old rig"),
+        ("import.columns.speed_rpm", "n: 1/min"),
+        ("import.columns.torque_Nm", "/Torque"),
+        ("import.units.speed_rpm", "n: 1/min"),
+    ],
+)
+def test_a_text_that_is_no_path_is_taken(key, text):
+    assert reading.answers_of({key: text}, {}, []) == {key: text}
+
+
+@pytest.mark.parametrize("text", ["C:/secret.txt", r"c:\secret.txt", r"\\host\share\a.txt", "/etc/passwd", "a/../../b"])
+def test_a_path_outside_the_page_is_refused(text):
+    with pytest.raises(InputError, match="names a file outside this page"):
+        reading.answers_of({"surfaces.ground.profile": text}, {}, [])
+
+
 def test_a_ranking_counts_where_a_pairing_is_best_and_inside_the_range():
     rows = [("a", "a", 1, 10.0, ""), ("a", "a", 2, 30.0, "not_quantitative; x"), ("b", "b", 1, 12.0, "")]
     rows += [("b", "b", 2, 20.0, "extrapolated_little")]

@@ -43,6 +43,18 @@ def test_a_foreign_host_is_refused(client, host):
     assert (answer.status_code, answer.text) == (403, "This page answers to 127.0.0.1 and localhost alone.")
 
 
+@pytest.mark.parametrize(("port", "refused"), [(80, None), (8765, 403)])
+def test_port_80_is_called_without_its_number(port, refused):
+    from mixedlub.app.security import Guard
+    from mixedlub.app.server import hosts_of
+
+    guard = Guard(None, hosts_of(port))
+    for host in ("127.0.0.1", "localhost"):
+        found = guard.refused("POST", {"host": host, "origin": f"http://{host}"})
+        assert (found and found[0]) == refused
+        assert guard.refused("GET", {"host": f"{host}:{port}"}) is None
+
+
 @pytest.mark.parametrize(
     "headers",
     [

@@ -304,6 +304,24 @@ class TestGearbox:
                 "inner needs 60 mm and the mesh outer 126 mm",
             ),
             (
+                {
+                    "meshes": {
+                        "inner": mesh("sun", "planet", teeth=(27, 33), profile_shift=[0.3, -0.3]),
+                        "outer": mesh("planet", "ring", teeth=(33, -93), profile_shift=[0.3, -0.3]),
+                    }
+                },
+                "planet is one wheel, but has profile_shift -0.3 in the mesh inner and 0.3 in the mesh outer",
+            ),
+            (
+                {
+                    "meshes": {
+                        "inner": mesh("sun", "planet", teeth=(27, 33), tip_diameter_mm=[58.0, 70.0]),
+                        "outer": mesh("planet", "ring", teeth=(33, -93), tip_diameter_mm=[69.8, 183.0]),
+                    }
+                },
+                "planet is one wheel, but has tip_diameter_mm 70 in the mesh inner and 69.8 in the mesh outer",
+            ),
+            (
                 {"planets": {"planet": {"mass_kg": 0.1, "bearings": {"n": {**NEEDLE, "shaft": "sun"}}}}},
                 "key is not known",
             ),

@@ -47,6 +47,18 @@ def test_curvature_over_slope_is_that_of_traces(shared):
     assert CURVATURE[1] < np.median(ratios) < ratios.max() < CURVATURE[2]
 
 
+def test_the_band_of_rq_over_ra_holds_a_sine():
+    """Rq/Ra of a sine, near that of turned flanks, is 1.1107; the middle of CURVATURE is a geometric mean."""
+    assert PER_RQ["Ra"][0] == pytest.approx(np.pi / np.sqrt(8.0), abs=1e-3)
+    assert CURVATURE[1] == pytest.approx(np.sqrt(CURVATURE[0] * CURVATURE[2]), rel=0.01)
+
+
+def test_roughness_beyond_a_correlation_is_cautioned(evaluated):
+    caution = "Rq lies above 1.6 um, beyond the range of one of the three correlations"
+    for text, beyond in (("Rq:1.7um", True), ("Rq:1.5um", False)):
+        assert (caution in evaluated(text)["warnings"][0]) == beyond
+
+
 @pytest.mark.parametrize(("name", "value"), [("Ra", 0.4e-6), ("Rq", 0.03e-6), ("Rz", 3e-6), ("Rq", 8e-6)])
 def test_assumed_moments_belong_to_a_gaussian_surface(name, value):
     found = assumed_moments(name, value)

@@ -351,3 +351,14 @@ def test_figures_of_an_earlier_run_are_named_where_none_are_drawn(tmp_path, caps
     assert main(words) == 0
     assert main([*words, "--no-figures"]) == 0
     assert f"note: {tmp_path / 'o' / 'figures'} is of an earlier run" in capsys.readouterr().err
+
+
+def test_two_numbers_of_one_kind_have_folders_of_their_own(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for text in ("Ra:0.4um", "Ra:0.8 um"):
+        assert main(["profile", text, "--no-figures"]) == 0
+    found = {file.parent.name: json.loads(file.read_text())[0] for file in tmp_path.rglob("profile.json")}
+    assert {name: row["assumed"]["Ra_um"] for name, row in found.items()} == {
+        "Ra_0.4um": pytest.approx(0.4),
+        "Ra_0.8um": pytest.approx(0.8),
+    }

@@ -62,6 +62,12 @@ def test_method_1_fits_the_cutter():
     assert 1.0 / limit_curvature(cones) == pytest.approx(GLEASON.cutter_radius, rel=1e-9)
 
 
+@pytest.mark.parametrize(("offset", "angles"), [(0.05e-3, (17.215, 72.785)), (15e-3, (21.288, 68.324))])
+def test_small_offsets_of_method_1_have_pitch_cones(offset, angles):
+    """Near the bevel pair: atan(13/42) = 17.199 degrees; 15 mm is the sample of the standard."""
+    assert np.degrees(pitch_cones(replace(GLEASON, offset=offset)).angle) == pytest.approx(angles, abs=6e-4)
+
+
 @pytest.mark.parametrize(("basic", "offset"), [(OERLIKON, 1e-7), (KLINGELNBERG, 1e-13)], ids=["method_2", "method_3"])
 def test_vanishing_offset_gives_the_bevel_pair(basic, offset):
     general = METHODS[basic.method](replace(basic, offset=offset))

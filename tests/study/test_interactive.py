@@ -147,5 +147,5 @@ def test_a_page_without_the_library_of_the_chart_says_how_to_add_it(tmp_path, mo
     assert len(chart.rows.table) == 1
     write_page(study, tmp_path, [])
     page = (tmp_path / "index.html").read_text(encoding="utf-8")
-    assert "mixedlub[interactive]" in page
+    assert "pip install '.[interactive]'" in page
     assert "vegaEmbed" not in page

@@ -17,6 +17,7 @@ from roughness.maps import (
     texture_direction,
     texture_parameters,
 )
+from roughness.maps.prepare import areal_roughness
 
 A, B, STEP, PERIOD = 1e-6, 0.6e-6, 1e-6, 50
 K = 2 * np.pi / (PERIOD * STEP)
@@ -138,3 +139,15 @@ def test_a_flat_map_is_refused():
     for function in (height_parameters, texture_parameters):
         with pytest.raises(InputError, match="flat"):
             function(made(np.zeros((40, 40))))
+        with pytest.raises(InputError, match="flat"):
+            function(made(np.full((40, 40), 1.3e-6)))
+
+
+@pytest.mark.parametrize("slope", [0.0, 1e-7])
+def test_a_flat_or_tilted_map_has_no_roughness(slope):
+    """Rounding leaves Sq near 1e-22 m of a plane; a wave of 1 nm on it is kept."""
+    y, x = np.mgrid[0:64, 0:64]
+    plane = 1.3e-6 + slope * x + 2.0 * slope * y
+    with pytest.raises(InputError, match="is flat: it has no roughness"):
+        areal_roughness(made(plane))
+    assert areal_roughness(made(plane + 1e-9 * (-1.0) ** (x + y))).heights.std() == pytest.approx(1e-9, rel=1e-3)
