@@ -85,6 +85,8 @@ def numbers_of(settings: list[str]) -> dict[str, float]:
     found = {}
     for setting in settings:
         name, mark, text = setting.partition("=")
+        if name.strip() in found:
+            raise InputError(f"{name.strip()} is set twice", where="--set", value=setting)
         try:
             found[name.strip()] = number_of(text.strip())
         except ValueError:

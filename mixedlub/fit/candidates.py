@@ -23,6 +23,7 @@ from mixedlub.fit.readings import MADE, Readings
 from mixedlub.laws import film, oil
 from mixedlub.own_laws import FileLaw, read_law
 from mixedlub.schema.units import ENDINGS, ending_of
+from profiles.errors import InputError
 
 FORMS = Path(__file__).with_name("forms")
 """Folder of laws that only fits use, a law file each."""
@@ -132,7 +133,13 @@ def _of(readings: Readings, own: tuple[Path, ...]) -> Iterator[Candidate | Unjud
     else:
         yield from forms
     for path in own:
-        yield of_file(read_law(path, MADE), quantity)
+        effect = read_law(path, MADE)
+        assert isinstance(effect.law, FileLaw)
+        form, acts_on = effect.law.file.form, effect.law.file.acts_on
+        if form != "replace" or acts_on not in (quantity, wanted):
+            rule = f'fits take a law with form = "replace" of {quantity}'
+            raise InputError(rule, where=str(path), value=f"{form} of {acts_on}")
+        yield of_file(effect, quantity)
 
 
 def of_friction(law: FrictionLaw) -> Candidate | Unjudged:

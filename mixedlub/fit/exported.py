@@ -10,6 +10,7 @@ import numpy as np
 
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.friction_law import FrictionLaw
+from mixedlub.chain.priors import LogNormal
 from mixedlub.chain.slots import FILM
 from mixedlub.ehl.oil.declared import OilLaw, Pair
 from mixedlub.fit.candidates import FACTOR
@@ -79,8 +80,15 @@ def _friction_options(found: Fit, readings: Readings) -> str:
     return _head(found, readings, use) + text
 
 
-def _sd(found: Fit, name: str) -> float:
-    return (found.high90[name] - found.low90[name]) / (2.0 * NORMAL_90)
+def _spread(found: Fit, name: str) -> str:
+    """Key of a law file with the spread of a parameter, of its logarithm if the prior is; empty without a spread."""
+    low, high = found.low90[name], found.high90[name]
+    if not high > low:
+        return ""
+    if any(p.name == name and isinstance(p.prior, LogNormal) for p in found.law.parameters):
+        own = float(np.log(high / low)) / (2.0 * NORMAL_90)
+        return f"prior = {{ lognormal = [{_number(found.parameters[name])}, {_number(own)}] }}"
+    return f"sd = {_number((high - low) / (2.0 * NORMAL_90))}"
 
 
 def _factor(found: Fit, readings: Readings, acts_on: str, stage: str) -> str:
@@ -96,7 +104,7 @@ def _factor(found: Fit, readings: Readings, acts_on: str, stage: str) -> str:
             "expression": FACTOR,
             "source": f"fit to {readings.source}",
         },
-        {FACTOR: ("-", found.parameters[FACTOR], _sd(found, FACTOR), "measured over the law as published")},
+        {FACTOR: ("-", found.parameters[FACTOR], _spread(found, FACTOR), "measured over the law as published")},
         {},
     )
 
@@ -114,7 +122,7 @@ def _form(found: Fit, readings: Readings) -> str:
     if acts_on == "friction" and readings.written("speed") == ("drive_speed",):
         acts_on, expression = "friction_torque", f"sign(drive_speed)*({expression})"
     parameters = {
-        p.name: (law.file.parameters[p.name].unit, found.parameters[p.name], _sd(found, p.name), p.meaning)
+        p.name: (law.file.parameters[p.name].unit, found.parameters[p.name], _spread(found, p.name), p.meaning)
         for p in found.law.parameters
     }
     names = {name for name in re.findall(r"[a-z_]+[a-z]", expression) if name in readings.state}
@@ -146,13 +154,13 @@ def _written(readings: Readings, name: str) -> str:
 
 def _law_text(
     keys: Mapping[str, str],
-    parameters: Mapping[str, tuple[str, float, float, str]],
+    parameters: Mapping[str, tuple[str, float, str, str]],
     ranges: Mapping[str, tuple[float, float]],
 ) -> str:
     lines = [f"{key} = {json.dumps(value, ensure_ascii=False)}" for key, value in keys.items()]
-    for name, (unit, value, sd, meaning) in parameters.items():
+    for name, (unit, value, spread, meaning) in parameters.items():
         lines += ["", f"[parameters.{name}]", f'unit = "{unit}"', f"value = {_number(value)}"]
-        lines += [f"sd = {_number(sd)}"] if sd > 0.0 else []
+        lines += [spread] if spread else []
         lines.append(f"meaning = {json.dumps(meaning, ensure_ascii=False)}")
     if ranges:
         lines += [

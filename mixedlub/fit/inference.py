@@ -77,9 +77,7 @@ class Problem:
         size = np.abs(readings.values)
         self.target = np.log(readings.values) if self.logarithmic else readings.values
         # Without a stated noise it is one share of the reading, or one size where readings have either sign.
-        self.unit = (
-            np.ones(len(readings)) if self.logarithmic else np.full(len(readings), float(np.median(size)) or 1.0)
-        )
+        self.unit = np.ones(len(readings)) if self.logarithmic else np.full(len(readings), readings.median_size)
         self.known = readings.sd is not None
         if readings.sd is not None:
             least = np.maximum(readings.sd, EXACT * size)
@@ -190,7 +188,8 @@ def _answer(problem: Problem, z: np.ndarray) -> Fit:
     wide = norm.isf(0.05) if problem.known else student.isf(0.05, max(n - k, 1))
     names = [p.name for p in problem.law.parameters]
     loose = tuple(name for name, own in zip(names, spread, strict=True) if own > UNDETERMINED)
-    half = np.minimum(wide * spread, norm.isf(0.05) if problem.known else wide)
+    # Readings never leave a parameter less known than its prior.
+    half = np.minimum(wide * spread, norm.isf(0.05))
     ends = [problem.values(z - half), problem.values(z + half)]
     low = {name: min(end[name] for end in ends) for name in names}
     high = {name: max(end[name] for end in ends) for name in names}

@@ -80,7 +80,7 @@ def shares(fitted: np.ndarray, readings: Readings) -> np.ndarray:
 def sizes(readings: Readings) -> np.ndarray:
     """Sizes to which errors relate: each reading, or the median where readings have either sign."""
     size = np.abs(readings.values)
-    return size if readings.is_logarithmic else np.full(size.shape, float(np.median(size)) or 1.0)
+    return size if readings.is_logarithmic else np.full(size.shape, readings.median_size)
 
 
 def trend(found: Fit, readings: Readings) -> Trend | None:

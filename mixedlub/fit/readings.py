@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -68,7 +69,7 @@ class Readings:
 
     ``quantity``: name in the glossary; ``values``: measured; ``sd``: standard deviations, None if unknown; ``state``:
     known quantities by name; ``columns``: conditions as the table has them, by header; ``sense``: direction of a drive,
-    by which its torque is made positive.
+    by which its torque is made positive; ``whole``: values of all readings, of which these are a part.
     """
 
     source: str
@@ -80,6 +81,7 @@ class Readings:
     forward: Forward | None = None
     notes: tuple[Finding, ...] = ()
     sense: np.ndarray | None = None
+    whole: np.ndarray | None = None
     _absent: set[str] = field(default_factory=set)
 
     def __len__(self) -> int:
@@ -98,8 +100,17 @@ class Readings:
 
     @property
     def is_logarithmic(self) -> bool:
-        """Whether laws are compared by the logarithm: all readings are positive."""
-        return bool((self.values > 0.0).all())
+        """Whether laws are compared by the logarithm: all readings are positive, also those left out."""
+        return bool((self._all > 0.0).all())
+
+    @property
+    def median_size(self) -> float:
+        """Median size of all readings, also those left out; 1 if it is zero."""
+        return float(np.median(np.abs(self._all))) or 1.0
+
+    @property
+    def _all(self) -> np.ndarray:
+        return self.values if self.whole is None else self.whole
 
     def take(self, rows: np.ndarray) -> Readings:
         """Some of the readings."""
@@ -110,7 +121,8 @@ class Readings:
         state = {name: part(values) for name, values in self.state.items()}
         columns = {name: values[rows] for name, values in self.columns.items()}
         sd = None if self.sd is None else self.sd[rows]
-        return replace(self, values=self.values[rows], sd=sd, state=state, columns=columns, forward=None)
+        values = self.values[rows]
+        return replace(self, values=values, sd=sd, state=state, columns=columns, forward=None, whole=self._all)
 
     def varied(self) -> dict[str, np.ndarray]:
         """Conditions with more than one level, by header."""
@@ -187,6 +199,9 @@ def read_readings(
     standard deviation of every reading.
     """
     if source.is_dir():
+        if constants:
+            rule = "a case has its conditions in its own files; constants are for tables"
+            raise InputError(rule, where="constant", value=next(iter(constants)))
         found = _of_case(source, quantity)
     else:
         file = open_file(source, {})
@@ -208,6 +223,9 @@ def checked(found: Readings, relative_sd: float | None) -> Readings:
     if found.quantity in ("contact_viscosity", "film_thickness") and bad.size:
         value = float(f"{found.values[bad[0]] * found.factor:.6g}")
         raise InputError("must be above 0", where=f"{where}, reading {bad[0] + 1}", value=value)
+    if found.sd is not None and (found.sd == 0.0).any():
+        place = f"{where}, reading {int(np.argmin(found.sd)) + 1}"
+        raise InputError("a reading of 0 has no relative noise; state an absolute one", where=place, value=0.0)
     if np.ptp(found.values) == 0.0:
         raise InputError(
             f"all {len(found)} readings are the same; a law is told by readings that change",
@@ -279,7 +297,7 @@ def _of_sheet(sheet: Sheet, quantity: str | None, constants: Mapping[str, float]
     meanings: dict[str, Meaning] = {}
     unknown = []
     for header in sheet.cells:
-        if header == "run" or header.lower().endswith("_sd") or header.lower().endswith(" sd"):
+        if header == "run" or _is_sd(header):
             continue
         found = meaning(header, f"{where}: header") if is_numeric(sheet.cells[header]) else None
         if found is None:
@@ -308,18 +326,22 @@ def _of_sheet(sheet: Sheet, quantity: str | None, constants: Mapping[str, float]
         found = meaning(header, "constant")
         if found is None:
             raise InputError(f"no such quantity; {nearest(header, GLOSSARY)}", where="constant", value=header)
+        if found.quantity in state and found.quantity not in by_quantity:
+            raise InputError(f"{found.quantity} is set twice", where="constant", value=header)
         if found.quantity in state:
             rule = f"is a column of the table too: {by_quantity[found.quantity]!r}"
             raise InputError(rule, where="constant", value=header)
         state[found.quantity] = np.array([value * found.factor + found.added])
+    header = by_quantity[name]
+    spread = _sd_header(sheet, header, meanings[header])
+    unknown += [other for other in sheet.cells if _is_sd(other) and other != spread]
     notes = [finding("columns_unknown", f"columns not used: {', '.join(unknown)}", where)] if unknown else []
     if not kept.all():
         text = f"rows with an empty cell left out: {int((~kept).sum())} of {kept.size}"
         notes.append(finding("rows_left_out", text, where))
     if name == "contact_viscosity" and "pressure" not in state:
         state["pressure"] = np.array([AMBIENT])
-    header = by_quantity[name]
-    values, sd = state.pop(name), _sd(sheet, header, kept, meanings[header].factor)
+    values, sd = state.pop(name), None if spread is None else _sd(sheet, spread, kept, meanings[header].factor)
     if meanings[header].quantity == "kinematic_viscosity":
         if "oil_density" not in state:
             rule = "a kinematic viscosity is fitted with the density of the oil: --set density_kg_m3=860, or a column"
@@ -354,13 +376,21 @@ def _numbers(sheet: Sheet, header: str) -> np.ndarray:
     return np.array([np.nan if is_missing(cell) else number_of(cell) for cell in cells])
 
 
-def _sd(sheet: Sheet, header: str, kept: np.ndarray, factor: float) -> np.ndarray | None:
-    names: Iterator[str] = (
-        one for one in sheet.cells if one.lower() in (f"{header}_sd".lower(), f"{header} sd".lower())
-    )
-    found = next(names, None)
-    if found is None:
-        return None
+def _is_sd(header: str) -> bool:
+    return header.lower().endswith(("_sd", " sd"))
+
+
+def _sd_header(sheet: Sheet, header: str, measured: Meaning) -> str | None:
+    """Column of the standard deviations of the measured one: of the same header, else of the same quantity and unit."""
+    found = [one for one in sheet.cells if _is_sd(one) and one[:-3].lower() == header.lower()]
+    for one in sheet.cells:
+        if _is_sd(one) and is_numeric(sheet.cells[one]):
+            with suppress(InputError):
+                found += [one] if meaning(one[:-3], "") == measured else []
+    return next(iter(found), None)
+
+
+def _sd(sheet: Sheet, found: str, kept: np.ndarray, factor: float) -> np.ndarray:
     values = _numbers(sheet, found)[kept] * factor
     if not (np.isfinite(values) & (values > 0.0)).all():
         raise InputError("standard deviations must be above 0 in every row", where=f"{sheet.name}: {found}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -64,12 +65,25 @@ def order_of(table: Table, by_run: bool = False) -> Order | None:
     for name in ("time_s", "sequence", *(("run",) if by_run else ())):
         if name not in table:
             continue
-        clock, part = np.asarray(table[name], float), np.zeros(len(table), int)
-        if name == "time_s" and stretches(table)[-1] + 1 <= FALLS_BACK * len(table):
-            part = stretches(table)
+        clock, part = np.asarray(table[name], float), _set_ups(table, name)
+        most = np.unique(table["setup"]).size if "setup" in table else 1
+        if part.max() + 1 > max(FALLS_BACK * len(table), most):
+            part = np.zeros(len(table), int)
         if 2 * len(set(zip(part.tolist(), clock.tolist(), strict=True))) > len(table):
             return Order(name, clock, part)
     return None
+
+
+def _set_ups(table: Table, name: str) -> np.ndarray:
+    """Stretch of each row: by time in the order of the rows, else by changes of set-up in the order of the clock."""
+    part = np.zeros(len(table), int)
+    if name == "time_s":
+        return stretches(table)
+    if "setup" in table:
+        order = np.argsort(table[name], kind="stable")
+        names = table["setup"][order]
+        part[order[1:]] = np.cumsum(names[1:] != names[:-1])
+    return part
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,7 +107,7 @@ class Programme:
     @cached_property
     def lines(self) -> list[Line]:
         """The stretches of the programme."""
-        every = range(int(self.order.part[-1]) + 1)
+        every = range(int(self.order.part.max()) + 1)
         return [self.line(self.order.clock[rows], self.values[rows]) for rows in (self.order.part == k for k in every)]
 
     def line(self, clock: np.ndarray, values: np.ndarray) -> Line:
@@ -237,11 +251,13 @@ def _steady(past: Past, values: np.ndarray, programme: Programme | None) -> np.n
 class _Places:
     """Where the rows of a table stand in a recording: index of the recorded row or -1, and rows that go on from it.
 
-    ``own``: the new rows are a programme of their own. Other new rows have no order.
+    ``part``: stretch from which each of these goes on; ``own``: the new rows are a programme of their own. Other new
+    rows have no order.
     """
 
     known: np.ndarray
     following: np.ndarray
+    part: np.ndarray
     own: bool
 
     @classmethod
@@ -249,16 +265,30 @@ class _Places:
         """The places by run number and by the column that orders the recording."""
         place = {run: row for row, run in enumerate(recorded["run"].tolist())} if "run" in recorded else {}
         known = np.array([place.get(run, -1) for run in table["run"].tolist()] if place else [-1] * len(table), int)
+        none = np.zeros(0, int)
         if order.name not in table:
-            return cls(np.full(len(table), -1), np.zeros(0, int), False)
+            return cls(np.full(len(table), -1), none, none, False)
         clock = np.asarray(table[order.name], float)
         known[(known >= 0) & (order.clock[known] != clock)] = -1
         new = np.flatnonzero(known < 0)
         if new.size > 1 and clock[new].min() <= order.clock.min():
-            return cls(known, np.zeros(0, int), order_of(table.take(new), by_run) is not None)
-        times, count = np.unique(clock[new], return_counts=True)
-        alone = ~np.isin(clock[new], [*times[count > 1], *order.clock])
-        return cls(known, new[alone], False)
+            return cls(known, none, none, order_of(table.take(new), by_run) is not None)
+        part = _followed(order, table.take(new), recorded)
+        places = list(zip(part.tolist(), clock[new].tolist(), strict=True))
+        taken = Counter([*places, *zip(order.part.tolist(), order.clock.tolist(), strict=True)])
+        alone = np.array([taken[place] == 1 for place in places], bool)
+        return cls(known, new[alone], part[alone], False)
+
+
+def _followed(order: Order, table: Table, recorded: Table) -> np.ndarray:
+    """Stretch from which each row goes on: the last of its set-up, else the last of all."""
+    last = int(order.part.max())
+    if "setup" not in table or "setup" not in recorded:
+        return np.full(len(table), last)
+    by_name: dict[str, int] = {}
+    for name, part in zip(recorded["setup"].tolist(), order.part.tolist(), strict=True):
+        by_name[name] = max(part, by_name.get(name, 0))
+    return np.array([by_name.get(name, last) for name in table["setup"].tolist()], int)
 
 
 def _placed(
@@ -280,14 +310,15 @@ def _placed(
     if places.own:
         new = np.flatnonzero(known < 0)
         return [*found, (programme.line(clock[new], values[new]), new, np.arange(new.size))]
-    last = order.part == order.part[-1]
-    late = clock[places.following] > order.clock.max()
-    size = int(last.sum())
-    for here in [places.following[late], *places.following[~late][:, None]]:
-        times, all_values = (
-            np.concatenate([a[last], b[here]]) for a, b in ((order.clock, clock), (programme.values, values))
-        )
-        found.append((programme.line(times, all_values), here, np.arange(size, size + here.size)))
+    for k in np.unique(places.part):
+        last, following = order.part == k, places.following[places.part == k]
+        late = clock[following] > order.clock[last].max()
+        size = int(last.sum())
+        for here in [following[late], *following[~late][:, None]]:
+            times, all_values = (
+                np.concatenate([a[last], b[here]]) for a, b in ((order.clock, clock), (programme.values, values))
+            )
+            found.append((programme.line(times, all_values), here, np.arange(size, size + here.size)))
     return found
 
 

@@ -92,6 +92,19 @@ def test_a_form_is_exported_as_a_law_file_in_quantities_of_the_table(folder):
     assert found == pytest.approx(table["friction_coefficient"], rel=0.08)
 
 
+def test_a_law_file_has_the_interval_of_the_fit_as_its_prior(folder):
+    path = written(folder, by_law("mckee").table(1))
+    assert main(["fit", str(path), "--out", "o", "--no-figures", "--law", "mckee"]) == 0
+    law = read_law(Path("o/law.toml"))
+    best = json.loads(Path("o/fit.json").read_text(encoding="utf-8"))["laws"]
+    fitted = {p["name"]: p for p in next(one for one in best if one["law"] == "mckee")["parameters"]}
+    for one in law.parameters:
+        low, high = fitted[one.name]["low90"], fitted[one.name]["high90"]
+        if low > 0.0:
+            ratio = one.prior.value(1.6449) / one.prior.value(-1.6449)
+            assert ratio == pytest.approx(high / low, rel=1e-4)
+
+
 def test_a_law_file_of_a_drive_simulates_the_drive(folder):
     made = MADE_UP[-1]
     path = written(folder, table := made.table(3))
@@ -129,6 +142,12 @@ def test_a_case_folder_is_read_with_its_contact_and_oil(folder, capsys):
     assert "hamrock_dowson" in found["tied"]
 
 
+def test_a_case_takes_no_constants(folder, capsys):
+    assert main(["new", "case", "--kind", "film", "--out", "case"]) == 0
+    assert main(["fit", "case", "--set", "radius_mm=3", "--out", "o"]) == 2
+    assert "constants are for tables" in capsys.readouterr().err
+
+
 def test_readings_outside_the_range_of_a_law_are_said(folder, capsys):
     made = by_law("misharin")
     path = written(folder, made.table(1))
@@ -140,6 +159,8 @@ CELSIUS, FALLING = [20.0, 40.0, 60.0, 80.0, 100.0], [5, 4, 3, 2, 1]
 GOOD = {"temperature_C": CELSIUS, "viscosity_mPa_s": [100.0, 40.0, 18.0, 10.0, 6.0]}
 ALIKE = {"temperature_C": [40.0] * 5, "viscosity_mPa_s": [10.0, 10.1, 9.9, 10.2, 9.8]}
 SPEED = [0.1, 0.2, 0.5, 1.0, 2.0]
+SLIDING = {"sliding_speed_m_s": SPEED, "friction_coefficient": [0.1, 0.08, 0.05, 0.04, 0.03]}
+NO_ZERO = "reading 3: 0.0: a reading of 0 has no relative noise; state an absolute one"
 
 
 @pytest.mark.parametrize(
@@ -159,6 +180,9 @@ SPEED = [0.1, 0.2, 0.5, 1.0, 2.0]
         (GOOD, ["--relative-sd", "2"], "must lie above 0 and below 1"),
         (GOOD, ["--set", "radius"], "is COLUMN=NUMBER"),
         (GOOD, ["--set", "radus_mm=3"], "nearest known: 'radius'"),
+        (GOOD, ["--set", "radius_mm=3", "--set", "radius_mm=4"], "radius_mm is set twice"),
+        (GOOD, ["--set", "radius_mm=3", "--set", "radius_m=0.004"], "radius is set twice"),
+        ({**SLIDING, "friction_coefficient": [0.1, 0.05, 0.0, 0.03, 0.04]}, ["--relative-sd", "0.02"], NO_ZERO),
         (GOOD, ["--law", "vogl"], "nearest known: 'vogel'"),
         (GOOD, ["--law", "d341"], "is not judged: needs a column oil_density"),
     ],

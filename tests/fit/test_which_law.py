@@ -9,6 +9,8 @@ from mixedlub.chain.priors import LogNormal
 from mixedlub.fit import checked, of_columns, ranking
 from mixedlub.fit.candidates import FILM_SPREAD, FRICTION_SPREAD, candidates
 from mixedlub.fit.inference import fit
+from mixedlub.fit.misfit import sizes
+from profiles.errors import InputError
 from tests.fit.made_up import BALL, MADE_UP, NOISE, MadeUp
 
 QUICK = (
@@ -187,6 +189,33 @@ def test_a_column_of_standard_deviations_is_the_noise():
     assert by_column.laws["log_evidence"].to_list() == pytest.approx(by_share.laws["log_evidence"].to_list(), rel=1e-6)
 
 
+def test_standard_deviations_are_told_by_the_quantity_or_named_as_unused():
+    table = by_law("tustin").table(1)
+    size = 0.01 * table["friction_coefficient"]
+    found = checked(of_columns({**table, "friction_sd": size, "sliding speed sd": size}, None, {}), None)
+    assert found.sd == pytest.approx(size)
+    assert [note.text for note in found.notes] == ["columns not used: sliding speed sd"]
+
+
+def test_a_part_of_the_readings_is_compared_as_all_of_them():
+    table = {"sliding_speed_m_s": [0.1, 0.2, 0.5, 1.0], "friction_coefficient": [-0.1, 0.2, 0.4, 0.8]}
+    whole = checked(of_columns(table, None, {}), None)
+    part = whole.take(np.array([False, True, True, True])).take(np.array([True, True, False]))
+    assert not part.is_logarithmic
+    assert sizes(part) == pytest.approx([0.3, 0.3])
+
+
+def test_an_interval_is_never_wider_than_the_prior():
+    table = {"sliding_speed_m_s": [0.1, 0.2, 0.5, 1.0], "friction_coefficient": [0.1, 0.102, 0.099, 0.1]}
+    readings = checked(of_columns(table, None, {}), None)
+    for law in candidates(readings)[0]:
+        found = fit(law, readings)
+        for p, z in zip(law.parameters, found.coordinates, strict=True):
+            ends = sorted(p.prior.value(z + side * 1.645) for side in (-1.0, 1.0))
+            assert ends[0] <= found.low90[p.name] + 1e-9
+            assert found.high90[p.name] <= ends[1] + 1e-9
+
+
 def test_a_drive_in_both_directions_is_fitted_against_its_motion():
     made = MADE_UP[-1]
     found = found_of(made, 3)
@@ -207,3 +236,19 @@ def test_an_own_law_competes(tmp_path):
     found = ml.fit_laws(table, constants={"load_N": 20.0, "viscosity_mPa_s": 20.0}, own=[path])
     assert found.best == "square"
     assert found.parameters["value"].iloc[0] == pytest.approx(200.0, rel=0.01)
+
+
+@pytest.mark.parametrize(("acts_on", "form"), [("film_thickness", "factor"), ("friction", "replace")])
+def test_an_own_law_takes_the_place_of_the_measured_quantity(tmp_path, acts_on, form):
+    path = tmp_path / "other.toml"
+    stage = "film" if acts_on == "film_thickness" else "boundary"
+    path.write_text(
+        f'id = "other"\nstage = "{stage}"\nacts_on = "{acts_on}"\nform = "{form}"\n'
+        'expression = "a*load_N"\n[parameters.a]\nunit = "1/N"\nvalue = 1.0\nsd = 0.5\n'
+    )
+    speed = np.geomspace(0.1, 2.0, 12)
+    table = {"entrainment_speed_m_s": speed, "film_thickness_nm": 200.0 * speed**0.7}
+    with pytest.raises(
+        InputError, match=f'{form} of {acts_on}.*fits take a law with form = "replace" of film_thickness'
+    ):
+        ml.fit_laws(table, constants={"load_N": 20.0, "viscosity_mPa_s": 20.0}, own=[path])

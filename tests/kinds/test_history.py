@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mixedlub.kinds.history import assumed, histories, programme_of
+from mixedlub.diagnosis.discrepancy.past import fading_times
+from mixedlub.kinds.history import assumed, histories, order_of, programme_of
 from mixedlub.schema.past import BEFORE, DIRECTION, MEMORY, SINCE, Past
 from mixedlub.schema.table import Table
 
@@ -131,3 +132,54 @@ def test_durations_are_told_in_the_unit_of_the_order() -> None:
     unordered = Table({"run": STEPS["run"], LOAD: STEPS[LOAD]})
     by_run = histories([Past(LOAD, SINCE, "readings")], unordered, unordered, by_run=True)
     assert by_run["load_since_readings"][5:10].tolist() == [0.0, 1.0, 2.0, 3.0, 4.0]
+
+
+def ten_set_ups(clock: str) -> Table:
+    """Ten set-ups of eight readings, each with two levels of load; the time of each starts at zero."""
+    own = np.tile(10.0 * np.arange(8), 10)
+    place = own if clock == "time_s" else np.linspace(0.0, 1.0, 80)
+    names = np.repeat([f"s{i}" for i in range(10)], 8)
+    return Table(
+        {"run": np.arange(1, 81), clock: place, "setup": names, LOAD: np.tile(np.repeat([50.0, 100.0], 4), 10)}
+    )
+
+
+@pytest.mark.parametrize("clock", ["time_s", "sequence"])
+def test_many_short_set_ups_are_not_mixed(clock: str) -> None:
+    table = ten_set_ups(clock)
+    order = order_of(table)
+    assert order is not None
+    assert order.part.tolist() == np.repeat(np.arange(10), 8).tolist()
+    found = histories([Past(LOAD, DIRECTION)], table, table)["load_direction"]
+    assert found.tolist() == [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0] * 10
+
+
+def test_set_ups_of_a_sequence_are_told_in_its_order() -> None:
+    table = ten_set_ups("sequence")
+    mixed = np.random.default_rng(0).permutation(80)
+    order = order_of(table.take(mixed))
+    assert order is not None
+    assert order.part.tolist() == (mixed // 8).tolist()
+
+
+def test_time_constants_are_told_by_steps_within_a_set_up() -> None:
+    table = ten_set_ups("time_s")
+    late = Table({**table.columns, "time_s": table["time_s"] + np.repeat(0.7 * np.arange(10), 8)})
+    order = order_of(late)
+    assert order is not None
+    assert fading_times(order)[0] == 20.0  # two readings 10 s apart, not 0.7 s
+
+
+def test_new_rows_go_on_from_the_last_restart_or_their_own_set_up() -> None:
+    clock = np.concatenate([20.0 * np.arange(20), STEPS["time_s"]])
+    load = np.concatenate([np.repeat([50.0, 100.0, 50.0, 100.0], 5), STEPS[LOAD]])
+    columns = {"run": np.arange(1, 41), "time_s": clock, LOAD: load}
+    new = later((51, 200.0, 100.0), (52, 220.0, 100.0))
+    found = histories(PASTS, new, Table(columns))
+    assert found["load_since_s"].tolist() == [0.0, 20.0]  # together, from 150 N at 190 s on
+    assert found["load_before_N"].tolist() == [150.0, 150.0]
+    named = Table({**columns, "setup": np.repeat(["a", "b"], 20)})
+    of_a = Table({**later((51, 400.0, 100.0), (52, 410.0, 100.0)).columns, "setup": np.array(["a", "b"])})
+    found = histories(PASTS, of_a, named)
+    assert found["load_since_s"].tolist() == [100.0, 0.0]
+    assert found["load_before_N"].tolist() == [50.0, 150.0]

@@ -57,9 +57,10 @@ def fading_times(order: Order) -> tuple[float, ...]:
     """Round time constants from a few readings to a part of the recording, in the unit of its order.
 
     >>> fading_times(Order("time_s", np.arange(0.0, 1200.0, 10.0), np.zeros(120, int)))
-    (20.0, 42.0, 86.0, 180.0, 370.0)
+    (20.0, 41.0, 84.0, 170.0, 360.0)
     """
-    steps = np.diff(np.sort(order.clock))
+    rows = np.lexsort((order.clock, order.part))
+    steps = np.diff(order.clock[rows])[np.diff(order.part[rows]) == 0]
     low = SHORTEST_FADING * float(np.median(steps[steps > 0.0]))
     high = max(SLOWEST_FADING * order.span, low)
     return tuple(dict.fromkeys(float(f"{t:.2g}") for t in np.geomspace(low, high, FADING_TIMES)))
