@@ -60,7 +60,7 @@ def tables_of(channels: Sequence[tuple[str, str, np.ndarray]]) -> list[MeasuredT
     [('rig, 3 rows', ['Load (N)', 'T']), ('rig, 2 rows', ['Film (nm)'])]
     """
     grouped: dict[tuple[str, int], list[tuple[str, np.ndarray]]] = {}
-    dates = [np.fmin.reduce(values) for _, _, values in channels if values.dtype.kind == "M" and values.size]
+    dates = [np.fmin.reduce(values, axis=None) for _, _, values in channels if values.dtype.kind == "M" and values.size]
     first = min((date for date in dates if not np.isnat(date)), default=None)
     for table, header, values in channels:
         found = _values(values, first)
