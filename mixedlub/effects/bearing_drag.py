@@ -68,7 +68,7 @@ _LEAST_LOAD = 0.1
     "Analysis, for f_1 that grows with load in ball bearings; SKF General Catalogue, 2005, for rolling torque with "
     "load^0.54; SKF, Rolling Bearings, 2018, for phi_bl and 0.12 over 0.05 in mineral oil (m = 1.4), and for a "
     "constant coefficient of friction, 0.0010 to 0.0024",
-    fingerprint={"load": "-", "speed": "+", "roughness": "-"},
+    fingerprint={"load": "-", "speed": "0", "roughness": "-"},
     special_cases={
         "Palmgren": {"load_power": 1.0, "idle": 1.0, "rolling_power": 0.0, "rubbing": 0.0},
         "constant coefficient": {"loaded": 4.0, "load_power": 1.0, "idle": 0.0, "rolling_power": 0.0, "rubbing": 0.0},

@@ -59,7 +59,7 @@ def test_the_readings_of_a_case_are_those_of_its_base_model(tmp_path, capsys):
 
 
 OF_A_TRACE = (
-    *("profile", "traces", "traces_along", "map", "unit", "spacing"),
+    *("profile", "traces", "traces_along", "map", "unit", "spacing", "holes", "Ra_um", "Rq_um", "Rz_um"),
     *("m2_along", "m4_along_per_um2", "lay"),
 )
 """Keys of a surface that go with files in place of its moments, or with a known lay."""

@@ -64,7 +64,7 @@ def test_every_needed_line_is_needed(tmp_path, kind):
 @pytest.mark.parametrize("kind", TABLES)
 def test_every_example_is_valid(tmp_path, kind):
     folder = imported(tmp_path, kind, lubricant={"name": "ours"})
-    others = ("instead of", "a trace", "the lay", "second channel", "of a point contact")
+    others = ("instead of", "the same from", "of a map", "a trace", "the lay", "second channel", "of a point contact")
     uncommented(folder, lambda line: not any(words in line for words in others))
     system = read_case(folder).system
     assert system.lubricant.name == "ours"
@@ -82,8 +82,8 @@ def test_the_list_after_an_import_is_complete(tmp_path, monkeypatch, capsys):
     for line in (
         "[gears] with preset; or with teeth, normal_module_mm, face_width_mm",
         '[lubricant] with what is known, if only base = "mineral"; the rest is taken as typical',
-        "[surfaces.ground] with profile or traces or map; or with m0_um2, m2, m4_per_um2",
-        '[surfaces."Ra 0.4"] with profile',
+        "[surfaces.ground] with Ra_um or Rq_um or Rz_um or profile or traces or map; or with m0_um2, m2, m4_per_um2",
+        '[surfaces."Ra 0.4"] with Ra_um or Rq_um or Rz_um or profile',
     ):
         assert f"\n  {line}" in needed
     for key in ("boundary_friction (0.1)", "gears.pressure_angle_deg (20.0)", "lubricant.kinematic_viscosity_mm2_s"):
