@@ -9,8 +9,13 @@ import pyarrow.parquet as pq
 import pytest
 
 import mixedlub as ml
+from mixedlub.chain.priors import LogNormal
 from mixedlub.cli import main
 from mixedlub.ehl import EXAMPLE, read_oil
+from mixedlub.fit import checked, of_columns
+from mixedlub.fit.candidates import candidates
+from mixedlub.fit.exported import exported
+from mixedlub.fit.inference import fit
 from mixedlub.own_laws import read_law
 from mixedlub.schema.toml_file import read_toml
 from tests.fit.made_up import MADE_UP, MadeUp
@@ -93,16 +98,15 @@ def test_a_form_is_exported_as_a_law_file_in_quantities_of_the_table(folder):
 
 
 def test_a_law_file_has_the_interval_of_the_fit_as_its_prior(folder):
-    path = written(folder, by_law("mckee").table(1))
-    assert main(["fit", str(path), "--out", "o", "--no-figures", "--law", "mckee"]) == 0
-    law = read_law(Path("o/law.toml"))
-    best = json.loads(Path("o/fit.json").read_text(encoding="utf-8"))["laws"]
-    fitted = {p["name"]: p for p in next(one for one in best if one["law"] == "mckee")["parameters"]}
-    for one in law.parameters:
-        low, high = fitted[one.name]["low90"], fitted[one.name]["high90"]
-        if low > 0.0:
-            ratio = one.prior.value(1.6449) / one.prior.value(-1.6449)
-            assert ratio == pytest.approx(high / low, rel=1e-4)
+    readings = checked(of_columns(by_law("mckee").table(1), None, {}), None)
+    found = fit(next(law for law in candidates(readings)[0] if law.name == "mckee"), readings)
+    Path("law.toml").write_text(exported(found, readings)["law.toml"], encoding="utf-8")
+    written_priors = {p.name: p.prior for p in read_law(Path("law.toml")).parameters}
+    logarithmic = [p.name for p in found.law.parameters if isinstance(p.prior, LogNormal)]
+    assert logarithmic
+    for name in logarithmic:
+        ratio = written_priors[name].value(1.6449) / written_priors[name].value(-1.6449)
+        assert ratio == pytest.approx(found.high90[name] / found.low90[name], rel=1e-4)
 
 
 def test_a_law_file_of_a_drive_simulates_the_drive(folder):

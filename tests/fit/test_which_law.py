@@ -208,12 +208,12 @@ def test_a_part_of_the_readings_is_compared_as_all_of_them():
 def test_an_interval_is_never_wider_than_the_prior():
     table = {"sliding_speed_m_s": [0.1, 0.2, 0.5, 1.0], "friction_coefficient": [0.1, 0.102, 0.099, 0.1]}
     readings = checked(of_columns(table, None, {}), None)
-    for law in candidates(readings)[0]:
-        found = fit(law, readings)
-        for p, z in zip(law.parameters, found.coordinates, strict=True):
-            ends = sorted(p.prior.value(z + side * 1.645) for side in (-1.0, 1.0))
-            assert ends[0] <= found.low90[p.name] + 1e-9
-            assert found.high90[p.name] <= ends[1] + 1e-9
+    law = next(one for one in candidates(readings)[0] if one.name == "tustin")
+    found = fit(law, readings)
+    for p, z in zip(law.parameters, found.coordinates, strict=True):
+        ends = sorted(p.prior.value(z + side * 1.645) for side in (-1.0, 1.0))
+        assert ends[0] <= found.low90[p.name] + 1e-9
+        assert found.high90[p.name] <= ends[1] + 1e-9
 
 
 def test_a_drive_in_both_directions_is_fitted_against_its_motion():
