@@ -225,6 +225,7 @@ def test_an_answer_out_of_range_is_one_sentence_and_the_form_is_kept(page):
     assert page.locator("[name='contact.radius_mm']").input_value() in ("9.5, inf", "[9.5, inf]")
 
 
+@pytest.mark.long
 def test_traces_show_parameters_and_the_consequences_of_cutoffs(page, tmp_path):
     contents = [(f"{name}.txt", (TRACES / f"{name}.txt").read_bytes()) for name in ("0036", "0258")]
     drop(page, "#surface", *contents, ("wrong.csv", b"no,trace\nat,all\n"))
@@ -281,6 +282,7 @@ def test_pairings_are_ranked_by_their_mean_loss(page, served):
     assert page.frame_locator("iframe").locator("h1").text_content() == "Pairings"
 
 
+@pytest.mark.long
 def test_two_runs_at_once_go_one_after_the_other(served):
     study = {
         "schema": "mixedlub-study/1",
