@@ -238,7 +238,7 @@ class GearPair:
 
     @property
     def gear_ratio(self) -> float:
-        """Speed of the pinion over the speed of the gear, |z2|/z1."""
+        """Speed of the pinion over the speed of the gear, the ratio of the numbers of teeth."""
         return abs(self.teeth[1]) / self.teeth[0]
 
     @property

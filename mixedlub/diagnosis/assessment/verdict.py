@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut, LevelsOut
 from mixedlub.diagnosis.assessment.mismatch_test import Mismatch
 from mixedlub.diagnosis.assessment.posterior import Posterior, posterior
@@ -14,41 +12,31 @@ from mixedlub.diagnosis.explanation import NOTHING, Explanation
 from mixedlub.diagnosis.inference.change_points import change_point_coordinates
 from mixedlub.diagnosis.inference.likelihood import outlier_chance
 from mixedlub.diagnosis.search.search import Search
-from mixedlub.diagnosis.settings.assessment import CHANCE_GAIN, FAILED_PENALTY, FAILED_SHARE, MOST_PENALTY, VALIDATED
+from mixedlub.diagnosis.settings.assessment import FAILED_PENALTY, FAILED_SHARE, MOST_PENALTY
 from mixedlub.diagnosis.settings.inference import LIKELY
 
 
 def judge(search: Search, test: Mismatch, levels: LevelsOut) -> tuple[Posterior, HeldOut]:
     """Posterior probabilities, and the error of the verdict on left-out levels.
 
-    The explanations that tie are compared by the log probability of left-out levels: beyond a gain by chance, the
-    others lose the difference in log odds. Each effect of a verdict must predict left-out levels better than the
-    verdict without it. An explanation that takes a third of the readings, or readings after most steps of a condition,
-    for outliers, fails.
+    Each effect of a verdict must predict left-out levels better than the verdict without it; else its log odds fall by
+    the difference. An explanation that takes a third of the readings, or readings after most steps of a condition, for
+    outliers, fails.
     """
     failing = {key: count for key in search.fits if key.effects and (count := failures(search, key))}
     best_named = max((key for key in search.scores if key.effects), key=search.log_weights.__getitem__, default=NOTHING)
-    scores: dict[Explanation, float] = {}
-    unearned: dict[Explanation, float] = {}
+    penalties = dict.fromkeys(failing, FAILED_PENALTY)
+    checked: set[Explanation] = set()
     while True:
-        most = max(scores.values(), default=0.0) - CHANCE_GAIN
-        penalties = dict.fromkeys(failing, FAILED_PENALTY)
-        for key, score in scores.items():
-            lost = float(np.clip(most - score, 0.0, MOST_PENALTY))
-            penalties[key] = penalties.get(key, 0.0) + max(lost, unearned.get(key, 0.0))
         judged = posterior(search, test, penalties)
         verdict = judged.verdict
-        fresh = [key for key in judged.tied if key not in scores]
-        if fresh and (len(scores) < VALIDATED or verdict in fresh):
-            scores[fresh[0]] = _cross_validated(levels, search, fresh[0]).score
-            continue
         kept = _cross_validated(levels, search, verdict)
-        if verdict.effects and verdict not in unearned:
-            unearned[verdict] = _unearned(levels, search, verdict, kept)
-            continue
-        if best_named in failing and not verdict.effects:
-            judged = replace(judged, failed=(best_named, failing[best_named]))
-        return judged, kept
+        if not verdict.effects or verdict in checked:
+            if best_named in failing and not verdict.effects:
+                judged = replace(judged, failed=(best_named, failing[best_named]))
+            return judged, kept
+        checked.add(verdict)
+        penalties[verdict] = penalties.get(verdict, 0.0) + _unearned(levels, search, verdict, kept)
 
 
 def _unearned(levels: LevelsOut, search: Search, verdict: Explanation, kept: HeldOut) -> float:

@@ -43,8 +43,6 @@ MOST_PENALTY = 20.0
 """Judgement. Largest penalty in log odds: 2e-9 leaves no doubt."""
 CHANCE_GAIN = 5.0
 """Judgement. Gain in log probability on left-out levels that chance gives: odds of 150."""
-VALIDATED = 8
-"""Cost limit. Cross-validated explanations; each costs as many fits as there are levels."""
 
 # Probabilities and averages
 TIE = 0.1
