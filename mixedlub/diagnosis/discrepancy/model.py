@@ -114,7 +114,7 @@ def _family_evidence(
     whitened = whitening(fixed, weight)
     for shape in family:
         tried.extend(replace(shape, size=size) for size in shape.sizes)
-        quick.extend(_evidence_by_size(target, whitened, columns_of(shape), np.array(shape.sizes)))
+        quick.extend(evidence_by_size(target, whitened, columns_of(shape), np.array(shape.sizes)))
     order = np.argsort(quick)[::-1]
     full = {
         int(i): linear_fit(target, np.hstack([fixed, columns_of(tried[i])]), weight) for i in order[:FITTED_IN_FULL]
@@ -154,7 +154,7 @@ def _log_mean(logs: list[float]) -> float:
     return float(np.logaddexp.reduce(logs) - np.log(len(logs)))
 
 
-def _evidence_by_size(
+def evidence_by_size(
     target: np.ndarray, whitened: Callable[[np.ndarray], np.ndarray], columns: np.ndarray, sizes: np.ndarray
 ) -> np.ndarray:
     """Gaussian log evidence for each size, relative to size zero."""

@@ -8,6 +8,7 @@ from itertools import combinations
 
 import numpy as np
 
+from mixedlub.diagnosis.discrepancy.model import evidence_by_size
 from mixedlub.diagnosis.discrepancy.modulated import share_of
 from mixedlub.diagnosis.explanation import NOTHING, Explanation
 from mixedlub.diagnosis.inference.map_fit import Fit, linear_fit, whitening
@@ -53,30 +54,26 @@ def law_error_evidence(
         form, sizes = form_error_columns(net, rms(net), space, values), FORM_ERRORS
     screened = np.hstack([fixed, SCREENED_BASE_ERROR * base, SCREENED_FORM_ERROR * form])
     weight = linear_fit(fit.anchor, screened, fit.weight).weight
-    squares, log_prior = np.array([size**2 for size, _ in BASE_ERRORS]), np.log([share for _, share in BASE_ERRORS])
+    base_sizes, base_shares = np.array(BASE_ERRORS).T
     best, best_columns, logs = -np.inf, fixed, []
     for size, share in sizes:
         columns = np.hstack([fixed, size * form]) if size else fixed
-        each = _quick_evidence(fit.anchor, columns, base, squares, weight)
+        each = _quick_evidence(fit.anchor, columns, base, base_sizes, weight)
         if each.max() > best:
-            best, best_columns = float(each.max()), np.hstack([columns, np.sqrt(squares[each.argmax()]) * base])
-        logs.append(each + log_prior + np.log(share))
+            best, best_columns = float(each.max()), np.hstack([columns, base_sizes[each.argmax()] * base])
+        logs.append(each + np.log(base_shares) + np.log(share))
     exact = linear_fit(fit.anchor, best_columns, weight).evidence
     return fit.evidence - plain + exact - best + float(np.logaddexp.reduce(np.concatenate(logs)))
 
 
 def _quick_evidence(
-    target: np.ndarray, fixed: np.ndarray, added: np.ndarray, squares: np.ndarray, weight: np.ndarray
+    target: np.ndarray, fixed: np.ndarray, added: np.ndarray, sizes: np.ndarray, weight: np.ndarray
 ) -> np.ndarray:
-    """Gaussian log evidence at fixed weights with columns added at each squared size, up to a constant."""
+    """Gaussian log evidence at fixed weights with columns added at each size, up to a constant."""
     whitened = whitening(fixed, weight)
-    whitened_target, whitened_columns = whitened(target[None])[0], whitened(added.T)
     inner = np.eye(fixed.shape[1]) + fixed.T @ (fixed * weight[:, None])
-    power, vectors = np.linalg.eigh(whitened_columns @ added)
-    along = (vectors.T @ (whitened_columns @ target)) ** 2
-    grown = 1.0 + squares[:, None] * np.maximum(power, 0.0)
-    gain = 0.5 * (squares[:, None] * along / grown - np.log(grown)).sum(axis=1)
-    return np.asarray(gain - 0.5 * float(target @ whitened_target) - 0.5 * float(np.linalg.slogdet(inner)[1]))
+    alone = float(target @ whitened(target[None])[0]) + float(np.linalg.slogdet(inner)[1])
+    return evidence_by_size(target, whitened, added, sizes) - 0.5 * alone
 
 
 @dataclass(frozen=True, eq=False)
