@@ -13,7 +13,7 @@ import numpy as np
 
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.change_points import average_over_change_points, change_point_posterior, drop_columns
-from mixedlub.diagnosis.inference.map_fit import covariance, linear_fit, map_fit
+from mixedlub.diagnosis.inference.map_fit import covariance, linear_fit, map_fit, square_root
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.assessment import (
@@ -60,13 +60,12 @@ class _Fold:
 
 @dataclass(frozen=True, eq=False)
 class LevelsOut:
-    """Folds of a condition, with residuals under calibration alone."""
+    """Folds of a condition."""
 
     search: Search
     used: np.ndarray
     name: str
     folds: tuple[_Fold, ...]
-    before: np.ndarray
     refitted: dict[Explanation, tuple[np.ndarray, float]] = field(default_factory=dict)
     """Residuals and log probability of the readings under the explanations tried so far."""
 
@@ -75,31 +74,29 @@ class LevelsOut:
         """Folds over the levels of the condition with most levels (up to 8), or of the ``only`` condition."""
         screened = search.full_screen
         name, label = _folds(screened, only)
-        folds, before = [], np.zeros(screened.problem.y.size)
+        folds = []
         for k in range(int(label.max()) + 1):
             out = label == k
             train, test = screened.problem.take(~out), screened.problem.take(out)
             # The error of its set-up is part of the noise of a left-out reading.
             wide = test.sd * np.sqrt(1.0 + np.sum(test.shared**2, axis=1))
-            null_fit = map_fit(train, NOTHING, screened.null_fit.z)
-            before[out] = (test.y - test.predict(NOTHING, null_fit.z)) / wide
             folds.append(_Fold(out, train, test, wide))
         used = np.isin(search.problem.rows["run"], screened.problem.rows["run"])
-        return cls(screened, used, name, tuple(folds), before)
+        return cls(screened, used, name, tuple(folds))
 
     def held(self, verdict: Explanation, outliers: np.ndarray) -> HeldOut:
         """Cross-validation of an explanation over all levels."""
         outliers = outliers[self.used]
-        after, score = self._refitted(verdict)
+        (before, score_before), (after, score) = self._refitted(NOTHING), self._refitted(verdict)
         used = ~outliers if not outliers.all() else np.ones(outliers.size, bool)
         return HeldOut(
-            float(np.sqrt(np.mean(self.before[used] ** 2))),
+            float(np.sqrt(np.mean(before[used] ** 2))),
             float(np.sqrt(np.mean(after[used] ** 2))),
             f"leave one level of {self.name} out" if self.name else "leave every fifth reading out",
             len(self.folds),
             int(used.sum()),
             score,
-            self._refitted(NOTHING)[1],
+            score_before,
         )
 
     def _refitted(self, verdict: Explanation) -> tuple[np.ndarray, float]:
@@ -109,7 +106,7 @@ class LevelsOut:
 
     def _refit(self, verdict: Explanation) -> tuple[np.ndarray, float]:
         """Residuals of all readings, parameters refitted without their level, and the log probability of the levels."""
-        after, score = np.zeros(self.before.size), 0.0
+        after, score = np.zeros(self.search.problem.y.size), 0.0
         forms = _discrepancy_columns(self.search) if verdict == DISCREPANCY else []
         for f in self.folds:
             scale = f.test.sd / f.wide
@@ -117,7 +114,7 @@ class LevelsOut:
                 after[f.out], found = _discrepancy_residuals(self.search, forms, f.out, scale)
                 score += found
                 continue
-            fit = map_fit(f.train, verdict, self.search.fits[verdict].z, warm=True)
+            fit = map_fit(f.train, verdict, self.search.fits[verdict].z, warm=verdict != NOTHING)
             run = f.test.run(fit.explanation, fit.z)
             # The level left out may be the one that determines a change point.
             posteriors = change_point_posterior(f.train, fit)
@@ -139,8 +136,7 @@ def _open_columns(columns: np.ndarray, weight: np.ndarray, slopes: np.ndarray) -
     ``columns`` are the slopes of a fit to other readings, ``slopes`` the slopes of the predictions for its first
     coordinates.
     """
-    size, vectors = np.linalg.eigh(covariance(columns, weight)[: slopes.shape[1], : slopes.shape[1]])
-    return np.asarray(slopes @ (vectors * np.sqrt(np.maximum(size, 0.0))))
+    return np.asarray(slopes @ square_root(covariance(columns, weight)[: slopes.shape[1], : slopes.shape[1]]))
 
 
 def _log_probability(residual: np.ndarray, shared: np.ndarray, alone: np.ndarray) -> float:

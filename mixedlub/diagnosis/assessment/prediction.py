@@ -18,7 +18,7 @@ from mixedlub.diagnosis.inference.change_points import (
     change_point_posterior,
     drop_columns,
 )
-from mixedlub.diagnosis.inference.map_fit import Fit, covariance, damped_update, linear_fit
+from mixedlub.diagnosis.inference.map_fit import Fit, covariance, damped_update, linear_fit, square_root
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.drift import correlated_error_variance
 from mixedlub.diagnosis.search.law_error import form_error_columns, n_inexact, rms
@@ -179,9 +179,7 @@ class NewRows:
         """Columns through which the rows share an uncertainty, computed where wanted."""
 
         def shared() -> np.ndarray:
-            size, vectors = np.linalg.eigh(spread)
-            root = vectors * np.sqrt(np.maximum(size, 0.0))
-            return np.asarray((columns @ root) * self.problem.sd[:, None])
+            return np.asarray((columns @ square_root(spread)) * self.problem.sd[:, None])
 
         return shared
 

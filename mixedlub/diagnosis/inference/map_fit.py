@@ -122,6 +122,16 @@ def covariance(columns: np.ndarray, weight: np.ndarray) -> np.ndarray:
     return np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ (columns * weight[:, None]))
 
 
+def square_root(spread: np.ndarray) -> np.ndarray:
+    """Columns with a covariance of one that give this covariance.
+
+    >>> square_root(np.diag([4.0, 0.0])).round(3).tolist()
+    [[0.0, 2.0], [0.0, 0.0]]
+    """
+    size, vectors = np.linalg.eigh(spread)
+    return np.asarray(vectors * np.sqrt(np.maximum(size, 0.0)))
+
+
 def whitening(columns: np.ndarray, weight: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
     """A function that multiplies rows by the inverse covariance of noise plus columns with standard-normal priors.
 
