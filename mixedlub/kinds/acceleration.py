@@ -16,6 +16,8 @@ WINDOWS = (5, 9, 17, 33)
 """Grid. Readings of the local parabola, the fewest that give a clear acceleration."""
 CLEAR = 0.1
 """Judgement. Noise of a clear acceleration over its largest size; a random order of speeds is never clear."""
+CORNER = 5.0
+"""Judgement. Misfit of a parabola over the typical one from which it lies across a sudden change of acceleration."""
 
 
 def stretches(table: Table) -> np.ndarray:
@@ -79,9 +81,29 @@ def _slope(time: np.ndarray, speed: np.ndarray) -> np.ndarray | None:
 
 
 def _local(time: np.ndarray, speed: np.ndarray, count: int) -> tuple[np.ndarray, float]:
-    """Slopes of the parabola through the ``count`` nearest readings, and their typical noise."""
-    first = np.clip(np.arange(time.size) - count // 2, 0, time.size - count)
-    rows = first[:, None] + np.arange(count)
+    """Slopes of the parabola through the ``count`` nearest readings, and their typical noise.
+
+    Across a corner of the speed, as where a motor is switched off, the parabola to one side replaces it.
+
+    >>> _local(np.arange(12.0), np.abs(np.arange(12.0) - 5.5), 5)[0].round(6).tolist()
+    [-1.0, -1.0, -1.0, -1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]
+    """
+    centred = np.arange(time.size) - count // 2
+    slope, misfit, noise = _parabolas(time, speed, centred, count)
+    corner = misfit > CORNER * np.median(misfit)
+    least = np.where(corner, misfit, 0.0)
+    for first in (centred - count // 2, centred + count // 2):
+        aside, left, _ = _parabolas(time, speed, first, count)
+        better = left < least
+        slope, least = np.where(better, aside, slope), np.where(better, left, least)
+    return slope, float(np.median(noise))
+
+
+def _parabolas(
+    time: np.ndarray, speed: np.ndarray, first: np.ndarray, count: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Slope at each reading, misfit and noise of the slope of parabolas through ``count`` readings from the first."""
+    rows = np.clip(first, 0, time.size - count)[:, None] + np.arange(count)
     off = time[rows] - time[:, None]
     scale = np.max(np.abs(off), axis=1)[:, None]
     powers = np.stack([np.ones_like(off), off / scale, (off / scale) ** 2], axis=2)
@@ -89,5 +111,4 @@ def _local(time: np.ndarray, speed: np.ndarray, count: int) -> tuple[np.ndarray,
     fitted = np.einsum("nij,nj->ni", solve, speed[rows])
     left = speed[rows] - np.einsum("nji,ni->nj", powers, fitted)
     sd = np.sqrt(np.sum(left**2, axis=1) / (count - 3))
-    noise = sd * np.linalg.norm(solve[:, 1, :], axis=1) / scale[:, 0]
-    return fitted[:, 1] / scale[:, 0], float(np.median(noise))
+    return fitted[:, 1] / scale[:, 0], sd, sd * np.linalg.norm(solve[:, 1, :], axis=1) / scale[:, 0]
