@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +24,7 @@ class Truth:
     ``within``: the catalogue's laws can become the planted laws; None if nothing is planted. ``forms``: sources of the
     planted forms. ``laws``: steps with another law; ``clear_laws``: steps that recalibration cannot hide, alone or with
     the others; ``sole_laws``: clear steps without imitation by a law of another step. ``flaws``: defects of the
-    recording.
+    recording. ``beyond``: conditions beyond the recorded range.
     """
 
     case: str
@@ -51,6 +51,7 @@ class Truth:
     clear_laws: frozenset[str] = frozenset()
     sole_laws: frozenset[str] = frozenset()
     flaws: frozenset[str] = frozenset()
+    beyond: np.ndarray = field(default_factory=lambda: np.zeros(0, bool))
 
     @property
     def candidates(self) -> frozenset[str]:
@@ -66,7 +67,10 @@ class Truth:
 
 @dataclass(frozen=True)
 class Answer:
-    """Answer of a tool to a case: verdict, probabilities, flagged runs, and predictions by run."""
+    """Answer of a tool to a case: verdict, probabilities, flagged runs, and predictions by run.
+
+    ``laws``: quantity and expression of the law found without a name, and of the laws that cannot be told from it.
+    """
 
     case: str
     verdict: frozenset[str]
@@ -82,6 +86,7 @@ class Answer:
     low: np.ndarray
     high: np.ndarray
     seconds: float = float("nan")
+    laws: tuple[tuple[str, str], ...] = ()
 
 
 def silent(truth: Truth) -> Answer:
@@ -140,6 +145,7 @@ def read_truth(folder: Path) -> Truth:
         clear_laws=clear,
         sole_laws=sole,
         flaws=frozenset(truth.get("flaws", ())),
+        beyond=np.array(rows.get("beyond", np.zeros(rows["run"].size)), bool),
     )
 
 
@@ -169,4 +175,13 @@ def read_answer(folder: Path) -> Answer:
         low=table["low90"],
         high=table["high90"],
         seconds=float(json.loads(timed.read_text(encoding="utf-8"))) if timed.exists() else float("nan"),
+        laws=_laws(record.get("law")),
     )
+
+
+def _laws(law: dict[str, Any] | None) -> tuple[tuple[str, str], ...]:
+    """Quantity and expression of a law and of its equivalents."""
+    if law is None:
+        return ()
+    every = [law, *(rival for rival in law.get("rivals", ()) if rival.get("equivalent"))]
+    return tuple((one["acts_on"], one["expression"]) for one in every)

@@ -277,8 +277,24 @@ def truth_of(order: Order, sample: Sample, outliers: Sequence[int]) -> dict[str,
             base=rig.records(z, ()),
             nominal=rig.model(np.zeros(len(z)), ()),
             sd=sample.sd(truth),
+            **({"beyond": beyond(rig.columns, sample.hidden)} if order.beyond else {}),
         ),
     }
+
+
+def beyond(columns: Mapping[str, np.ndarray], hidden: np.ndarray) -> np.ndarray:
+    """Readings with a numeric condition beyond those of the visible readings.
+
+    >>> load = {"load_N": np.array([10.0, 20.0, 30.0])}
+    >>> beyond(load, np.array([False, False, True])).tolist()
+    [0.0, 0.0, 1.0]
+    """
+    found = np.zeros(hidden.size)
+    for name, values in columns.items():
+        if name not in ("run", "sequence", "time_s") and values.dtype != object:
+            seen = values[~hidden]
+            found[(values < seen.min()) | (values > seen.max())] = 1.0
+    return found
 
 
 def make(seed: int, index: int, order: Order, folder: Path) -> str:

@@ -16,6 +16,7 @@ from mixedlub.validation.baselines import BASELINES, RIGS, refuse_without_learne
 from mixedlub.validation.battery import generate, plan, workers
 from mixedlub.validation.measures import Pair
 from mixedlub.validation.oracle import oracle
+from mixedlub.validation.outside import OUTSIDE_FIGURES
 from mixedlub.validation.poor import POOR_FIGURES
 from mixedlub.validation.rigs import CONTACTS, KINDS
 from mixedlub.validation.sample_case import Order
@@ -168,6 +169,7 @@ def judge(out: Path, sealed: Sequence[Path], rivals: dict[str, Path] | None = No
     ids = sorted({name for truth in truths for name in truth.candidates})
     figures = WORLD_FIGURES if any(truth.laws for truth in truths) else FIGURES
     figures = POOR_FIGURES if any(truth.flaws for truth in truths) else figures
+    figures = OUTSIDE_FIGURES if {truth.group for truth in truths} == {"unknown"} else figures
     pairs, failed = _collected(out, truths)
     every_pair = [pair for some in pairs.values() for pair in some]
     unnamed = {f"{kind}, unnamed": [pair for pair in some if pair[0].no_data_sheet] for kind, some in pairs.items()}

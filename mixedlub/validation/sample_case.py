@@ -45,6 +45,7 @@ class Order:
 
     ``laws``: steps at which the rig follows another law; ``strong``: recalibration of the base model must not hide the
     first law. ``flaws``: defects of the recording. ``law``: name of the law of a single effect, any if empty.
+    ``beyond``: an end of a condition is withheld.
     """
 
     name: str
@@ -59,6 +60,7 @@ class Order:
     strong: bool = False
     flaws: tuple[str, ...] = ()
     law: str = ""
+    beyond: bool = False
 
     @property
     def sizes(self) -> tuple[int, int] | None:
@@ -156,10 +158,13 @@ def _scaled(form: Form, values: dict[str, float], factor: float) -> dict[str, fl
     return {**values, "strength": float(np.clip(values["strength"] * factor, 0.98 * knob.low, 0.98 * knob.high))}
 
 
-def withhold(rng: np.random.Generator, rig: Rig, family: Family, sizes: tuple[int, int] | None = None) -> np.ndarray:
+def withhold(
+    rng: np.random.Generator, rig: Rig, family: Family, sizes: tuple[int, int] | None = None, beyond: bool = False
+) -> np.ndarray:
     """Readings to withhold: some at random and often a level of a condition or a stretch of time.
 
     ``sizes``: bounds of the number of recorded readings, the upper bound excluded; all others are then withheld.
+    ``beyond``: the last level of a condition is withheld.
     """
     count = len(rig.columns["run"])
     if sizes is not None:
@@ -174,7 +179,10 @@ def withhold(rng: np.random.Generator, rig: Rig, family: Family, sizes: tuple[in
         if name not in ("run", "sequence", "time_s", "position_deg") and column.dtype != object
     }
     several = {name: levels for name, levels in several.items() if len(levels) >= family.levels}
-    if count >= 30 and several and rng.random() < family.blocks:
+    if beyond and several:
+        name = list(several)[int(rng.integers(len(several)))]
+        hidden |= rig.columns[name] == several[name][-1]
+    elif count >= 30 and several and rng.random() < family.blocks:
         name = list(several)[int(rng.integers(len(several)))]
         levels = several[name] if family.ends else several[name][1:-1]
         hidden |= rig.columns[name] == levels[int(rng.integers(len(levels)))]
@@ -190,7 +198,7 @@ def _sample(rng: np.random.Generator, order: Order, goal: float) -> Sample:
     """A rig with noise and strengths scaled for a visibility of the effects as near the goal as possible."""
     rig, world, forms = _rig_for(rng, order)
     family = family_of(order.kind)
-    hidden = withhold(rng, rig, family, order.sizes)
+    hidden = withhold(rng, rig, family, order.sizes, order.beyond)
     z = rng.standard_normal(len(rig.names))
     if not order.effects and rng.random() < family.mis_set:
         z = np.sign(z) * rng.uniform(1.0, 2.0, len(z))
