@@ -53,7 +53,8 @@ class Refined:
     """A fit with errors of its laws; ``change_points`` hold the posteriors that the covariance lacks.
 
     ``bend`` is the most probable relative size of the error of form, ``bend_rms`` the root mean square over all sizes,
-    ``base_error`` the most probable relative size of the error of the base model.
+    ``base_error`` the most probable relative size of the error of the base model. ``variance`` of each coordinate is
+    over all sizes of both errors, the ``covariance`` at the most probable ones.
     """
 
     fit: Fit
@@ -63,6 +64,7 @@ class Refined:
     base_error: float
     coefficients: np.ndarray
     covariance: np.ndarray
+    variance: np.ndarray
     residual: np.ndarray
     typical: float
     change_points: tuple[ChangePointPosterior, ...]
@@ -70,8 +72,7 @@ class Refined:
     @property
     def spread(self) -> np.ndarray:
         """Standard deviation of every coordinate."""
-        own = np.diag(self.covariance)[: self.z.size]
-        return np.asarray(np.sqrt(own + sum(p.variance for p in self.change_points)))
+        return np.asarray(np.sqrt(self.variance + sum(p.variance for p in self.change_points)))
 
 
 def refine(search: Search, fit: Fit, sizes: Sequence[tuple[float, float]] = FORM_ERRORS) -> Refined:
@@ -89,10 +90,13 @@ def refine(search: Search, fit: Fit, sizes: Sequence[tuple[float, float]] = FORM
     base = search.base_error.columns(problem, search.null_fit, search.space, search.values)
     sizes = sizes if form.size and n_inexact(problem, fit.explanation) else ((0.0, 1.0),)
     best, best_score, scores = None, -np.inf, np.zeros((len(sizes), len(BASE_ERRORS)))
+    tried: list[tuple[float, np.ndarray, np.ndarray]] = []
     for (i, (size, weight)), (j, (base_size, base_weight)) in product(enumerate(sizes), enumerate(BASE_ERRORS)):
         columns = np.hstack([fixed, base_size * base, size * form])
         linear = linear_fit(fit.anchor, columns, fit.weight)
         scores[i, j] = score = linear.evidence + np.log(weight) + np.log(base_weight)
+        own = np.diag(covariance(columns, linear.weight))[: fit.z.size]
+        tried.append((score, linear.coefficients[: fit.z.size], own))
         if score > best_score:
             best, best_score, used, form_error_size, base_error_size = linear, score, columns, size, base_size
     assert best is not None
@@ -101,6 +105,8 @@ def refine(search: Search, fit: Fit, sizes: Sequence[tuple[float, float]] = FORM
     bend_rms = float(np.sqrt(shares @ squares / shares.sum()))
     spread = covariance(used, best.weight)
     spread[at_change_points, at_change_points] = 0.0
+    variance = _variance_over(tried)
+    variance[at_change_points] = 0.0
     target_z = best.coefficients[: fit.z.size].copy()
     target_z[at_change_points] = fit.z[at_change_points]
     change_points = change_point_posterior(problem, sloping, used[:, fixed.shape[1] :])
@@ -120,10 +126,23 @@ def refine(search: Search, fit: Fit, sizes: Sequence[tuple[float, float]] = FORM
         base_error_size,
         coefficients,
         spread,
+        variance,
         errors.residual,
         typical,
         change_points,
     )
+
+
+def _variance_over(fits: Sequence[tuple[float, np.ndarray, np.ndarray]]) -> np.ndarray:
+    """Variance of coordinates over fits: log weight, coordinates, and their variance in each.
+
+    >>> _variance_over([(0.0, np.zeros(1), np.ones(1)), (0.0, np.full(1, 2.0), np.ones(1))]).tolist()
+    [2.0]
+    """
+    scores, centres, variances = (np.array(each) for each in zip(*fits, strict=True))
+    share = np.exp(scores - np.max(scores))
+    share = share / share.sum()
+    return np.asarray(share @ (variances + (centres - share @ centres) ** 2))
 
 
 class NewRows:
