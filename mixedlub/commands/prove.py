@@ -14,7 +14,7 @@ NAME = "prove"
 EXAMPLE = "mixedlub prove --out out/prove"
 
 
-FULL, QUICK = 240, 24
+FULL, QUICK = 240, 10
 RIGS, RIGS_QUICK, OUTSIDE = 200, 25, 100
 
 
