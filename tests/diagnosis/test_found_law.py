@@ -14,7 +14,9 @@ from mixedlub.case.files import case_files
 from mixedlub.case.folder import conditions_for, read_case
 from mixedlub.case.simulation import simulate
 from mixedlub.diagnosis.assessment.answer_checks import answer_warnings
+from mixedlub.diagnosis.assessment.cross_validation import HeldOut
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.discovery.laws import _is_law
 from mixedlub.diagnosis.report.files import write
 from mixedlub.own_laws import read_law
 from mixedlub.schema.findings import collected
@@ -110,3 +112,12 @@ def test_without_a_law_the_answer_says_so(unnamed: Diagnosis) -> None:
     bare = replace(unnamed, law=None)
     assert Answer(bare).record["law"] is None
     assert "No law acting in the model was found" in " ".join(str(Answer(bare)).split())
+
+
+@pytest.mark.parametrize(
+    ("after", "score", "law"), [(1.1, -60.0, True), (1.1, -72.0, True), (1.1, -73.5, False), (3.0, -60.0, False)]
+)
+def test_a_law_that_follows_a_part_of_the_mismatch_is_none(after: float, score: float, law: bool) -> None:
+    """Left-out levels have the log probability -65 under the discrepancy: odds of 3000 against the law are too many."""
+    kept = HeldOut(3.5, after, "leave one level of load_N out", 8, 60, score, -300.0)
+    assert _is_law(kept, -65.0) is law

@@ -117,7 +117,7 @@ class FoundLaw:
 
 
 def find_law(search: Search, levels: LevelsOut) -> FoundLaw | None:
-    """The best law that predicts left-out levels clearly better than calibration; None if there is none."""
+    """The best law that predicts left-out levels clearly better than calibration, and as well as a discrepancy."""
     full, search = search, search.full_screen
     present, pasts = variables(search), past_variables(search)
     every = [*present, *pasts.values()]
@@ -138,8 +138,9 @@ def find_law(search: Search, levels: LevelsOut) -> FoundLaw | None:
     held = {
         w.effect.id: proof.held(w.fit.explanation, outlier_chance(w.fit.residual) > LIKELY) for w in _leading(weighed)
     }
-    # Evidence decides between laws; the error on left-out levels decides whether one is a law at all.
-    best = next((w for w in weighed if w.effect.id in held and _is_better(held[w.effect.id])), None)
+    # Evidence decides between laws; left-out levels decide whether one is a law at all.
+    free = levels.held(DISCREPANCY, outlier_chance(search.discrepancy.fit.residual) > LIKELY).score
+    best = next((w for w in weighed if w.effect.id in held and _is_law(held[w.effect.id], free)), None)
     if best is None or not _holds_along_its_conditions(best, search, levels.name, own, laws):
         return None
     kept, single = held[best.effect.id], search.problem.n_per_effective
@@ -172,10 +173,15 @@ def _by_weight(w: Weighed) -> float:
     return -w.log_weight
 
 
-def _is_better(kept: HeldOut) -> bool:
-    """Whether a law predicts left-out levels clearly better than calibration alone, most of the mismatch included."""
+def _is_law(kept: HeldOut, free: float) -> bool:
+    """Whether a law predicts left-out levels clearly better than calibration alone, most of the mismatch included.
+
+    A law far behind the discrepancy, under which left-out levels have the log probability ``free``, follows only a part
+    of the mismatch.
+    """
     excess = kept.after**2 - 1.0 <= MOST_EXCESS * (kept.before**2 - 1.0)
-    return excess and kept.after < kept.before and kept.score > kept.score_before + CHANCE_GAIN
+    better = kept.after < kept.before and kept.score > kept.score_before + CHANCE_GAIN
+    return excess and better and kept.score > free - FAR_BEHIND
 
 
 def _holds_along_its_conditions(
