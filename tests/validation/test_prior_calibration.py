@@ -132,7 +132,7 @@ def test_probabilities_are_shares_of_right_answers(draws: list[Drawn], low: floa
 def test_true_coordinates_have_uniform_ranks_and_lie_in_their_intervals(draws: list[Drawn]) -> None:
     ranks = np.concatenate([one.ranks for one in draws])
     assert kstest(ranks, "uniform").pvalue > 0.01
-    assert 0.87 < float(np.mean((ranks > 0.05) & (ranks < 0.95))) < 0.93
+    assert 0.85 < float(np.mean((ranks > 0.05) & (ranks < 0.95))) < 0.95
 
 
 @pytest.mark.long
