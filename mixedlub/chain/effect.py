@@ -194,7 +194,8 @@ def _unit(unit: str) -> str:
 
 
 def _ranges(ranges: Ranges) -> str:
-    return "; ".join(f"{n} {low:g} to {high:g}{_unit(GLOSSARY[n].unit)}" for n, (low, high) in ranges.items())
+    units = {n: _unit(GLOSSARY[n].unit) if n in GLOSSARY else "" for n in ranges}
+    return "; ".join(f"{n} {low:g} to {high:g}{units[n]}" for n, (low, high) in ranges.items())
 
 
 def _letter(quantity: str) -> str:

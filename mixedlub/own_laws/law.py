@@ -18,7 +18,7 @@ from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.effects import catalogue
 from mixedlub.expressions import Call, Expression, parse
 from mixedlub.expressions.latex import latex, symbol_in_latex
-from mixedlub.own_laws.file import LawFile, LawParameter
+from mixedlub.own_laws.file import Ends, LawFile, LawParameter
 from mixedlub.schema.past import Past, past_of
 from mixedlub.schema.toml_file import parse as parse_toml
 from mixedlub.schema.toml_file import read_toml
@@ -126,7 +126,7 @@ def _law(file: LawFile, text: str, path: Path, columns: Collection[str]) -> Effe
         parameters=tuple(_parameter(name, p) for name, p in file.parameters.items()),
         fingerprint={},
         separated_by=file.separated_by or _separated(law),
-        valid={_quantity(name, where): _ends(name, ends) for name, ends in file.range.items()},
+        valid=dict(_range(name, ends, reads, where) for name, ends in file.range.items()),
     )
 
 
@@ -186,18 +186,14 @@ def _parameter(name: str, p: LawParameter) -> Parameter:
     )
 
 
-def _quantity(name: str, where: str) -> str:
-    found = _read(name, ())
-    if found is None:
+def _range(name: str, ends: Ends, reads: Mapping[str, Read], where: str) -> tuple[str, tuple[float, float]]:
+    """Quantity of a range with its ends in SI; a column that the expression reads keeps its unit."""
+    read = reads.get(name) or _read(name, ())
+    if read is None:
         rule = f"no such quantity, with or without a unit; {nearest(without_unit(name), GLOSSARY)}"
         raise InputError(rule, where=f"{where}: range", value=name)
-    return found.argument
-
-
-def _ends(name: str, ends: tuple[float, float]) -> tuple[float, float]:
-    read = _read(name, ()) or Read(name)
     low, high = (read.factor * end + read.added for end in ends)
-    return low, high
+    return read.argument, (low, high)
 
 
 def _equation(law: FileLaw) -> str:

@@ -18,6 +18,7 @@ from mixedlub.diagnosis.assessment.cross_validation import HeldOut
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.discovery.laws import _is_law
 from mixedlub.diagnosis.report.files import write
+from mixedlub.importers import write_case
 from mixedlub.own_laws import read_law
 from mixedlub.schema.findings import collected
 
@@ -121,3 +122,24 @@ def test_a_law_that_follows_a_part_of_the_mismatch_is_none(after: float, score: 
     """Left-out levels have the log probability -65 under the discrepancy: odds of 3000 against the law are too many."""
     kept = HeldOut(3.5, after, "leave one level of load_N out", 8, 60, score, -300.0)
     assert _is_law(kept, -65.0) is law
+
+
+def test_a_law_of_a_drive_reads_the_size_of_its_signed_speed(tmp_path: Path) -> None:
+    """A fifth of the friction vanishes above 500 rpm, in both directions."""
+    half = np.geomspace(60.0, 1500.0, 18).round(0)
+    speed = np.tile(np.concatenate([half, -half]), 2)
+    friction = np.sign(speed) * (0.2 + 0.0001 * np.abs(speed) - 0.04 * (np.abs(speed) > 500.0))
+    noise = {"absolute": 0.002, "relative": 0.0}
+    settings = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm", "noise": noise}}
+    read = friction + np.random.default_rng(2).normal(0.0, 0.002, speed.size)
+    write_case(tmp_path / "drive", settings, {"speed_rpm": speed, "friction_torque_Nm": read})
+    d = diagnose_case(tmp_path / "drive")
+    assert d.posterior.verdict.is_discrepancy
+    law = Answer(d).record["law"]
+    assert "abs(speed_rpm)" in law["expression"]
+    assert law["range"] == {"speed_rpm": [-1500.0, 1500.0]}
+    assert law["heldout_after"] < 0.5 * law["heldout_before"]
+    at = {"speed_rpm": np.array([800.0, 3000.0])}
+    with collected():
+        validity = simulate(Answer(d).improved, conditions_for(Answer(d).improved, at))["validity"].tolist()
+    assert [words == "valid" for words in validity] == [True, False]

@@ -115,6 +115,16 @@ def test_a_range_is_in_si_and_outside_it_the_rows_say_so(tmp_path: Path) -> None
     assert np.array_equal(["law_extrapolated:bare" in words for words in judged.words], warm)
 
 
+def test_the_range_of_a_column_that_the_expression_reads_is_in_its_unit(tmp_path: Path) -> None:
+    """The model of a drive has the signed speed of the recording and no pinion speed."""
+    changes = {"stage": "loss", "acts_on": "reading", "expression": "exp(a*tanh(abs(speed_rpm)/900))"}
+    law = read_law(bare(tmp_path, "[range]\nspeed_rpm = [-1500, 1500]", **changes), ["speed_rpm"])
+    assert law.valid == {"speed_rpm": (-1500.0, 1500.0)}
+    forward = reference_rigs.forward("friction_map")
+    check_usable(law, forward.chain, {**forward.inputs, **forward.columns_of([law])}, "reading", "friction_map")
+    assert law.facts["valid"] == "speed_rpm -1500 to 1500"
+
+
 def test_the_law_travels_to_other_processes(tmp_path: Path) -> None:
     law = pickle.loads(pickle.dumps(read_law(bare(tmp_path))))
     assert float(law.law(1e-6, 840.0, a=1.0)) == pytest.approx(2e-6, rel=1e-14)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
@@ -37,6 +38,7 @@ def law_data(name: str, c: Candidate, sizes: np.ndarray, ranges: Mapping[str, li
             text = text.replace(f"<{own}>", own)
         parts.append(letter if text == "1" else f"{letter}*{text}")
     body = "+".join(parts)
+    read = words_of(" ".join(v for t in c.terms for v in t.variables))
     return {
         "id": name,
         "description": "A law found in the readings, empirical.",
@@ -46,8 +48,17 @@ def law_data(name: str, c: Candidate, sizes: np.ndarray, ranges: Mapping[str, li
         "expression": body if c.target.form == ADD else _as_factor(c, parts),
         "parameters": parameters,
         "source": SOURCE,
-        "range": {name: ends for name, ends in ranges.items() if any(name in v for t in c.terms for v in t.variables)},
+        "range": {name: ends for name, ends in ranges.items() if name in read},
     }
+
+
+def words_of(text: str) -> set[str]:
+    """Names in an expression.
+
+    >>> sorted(words_of("abs(sliding_speed_m_s)^2"))
+    ['2', 'abs', 'sliding_speed_m_s']
+    """
+    return set(re.findall(r"\w+", text))
 
 
 def _amplitude_sd(c: Candidate, place: int, sizes: np.ndarray) -> float:

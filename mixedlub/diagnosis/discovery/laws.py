@@ -14,7 +14,7 @@ from mixedlub.chain.priors import LogNormal, Normal, Prior, Uniform
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut, LevelsOut
 from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.assessment.prediction import Refined, refine
-from mixedlub.diagnosis.discovery.files import LETTERS, as_effect, law_data
+from mixedlub.diagnosis.discovery.files import LETTERS, as_effect, law_data, words_of
 from mixedlub.diagnosis.discovery.past_terms import past_terms, past_variables
 from mixedlub.diagnosis.discovery.screening import ADD, Candidate, Target, price, screened
 from mixedlub.diagnosis.discovery.terms import Variable, variables
@@ -154,9 +154,8 @@ def find_law(search: Search, levels: LevelsOut) -> FoundLaw | None:
         full, problem=final, fits={**full.fits, fit.explanation: fit}, screen=None, scores={**full.scores}
     )
     refined = {fit.explanation: refine(own_search, fit), NOTHING: refine(own_search, full.null_fit)}
-    ranges = {
-        v.text: (float(v.values.min()), float(v.values.max())) for v in present if v.text in best.data["expression"]
-    }
+    read = words_of(best.data["expression"])
+    ranges = {v.text: (float(v.values.min()), float(v.values.max())) for v in present if v.text in read}
     return FoundLaw(
         law,
         _valued(best.data, final, fit),
