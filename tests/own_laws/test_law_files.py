@@ -122,7 +122,7 @@ def test_the_range_of_a_column_that_the_expression_reads_is_in_its_unit(tmp_path
     assert law.valid == {"speed_rpm": (-1500.0, 1500.0)}
     forward = reference_rigs.forward("friction_map")
     check_usable(law, forward.chain, {**forward.inputs, **forward.columns_of([law])}, "reading", "friction_map")
-    assert law.facts["valid"] == "speed_rpm -1500 to 1500"
+    assert law.facts()["valid"] == "speed_rpm -1500 to 1500"
 
 
 def test_the_law_travels_to_other_processes(tmp_path: Path) -> None:
