@@ -22,7 +22,6 @@ COMMANDS = (
     "mixedlub simulate case --out simulated",
     "mixedlub profile shipped:0258 --out profile",
     "mixedlub study study_21_pairings.toml --out study",
-    "mixedlub study study_bearing_steel.toml --out bearing_steel",
     "python published/points.py",
     "python real/build.py --out real_cases",
     "python traces_rebuild.py",

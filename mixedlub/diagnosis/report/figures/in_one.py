@@ -1,0 +1,147 @@
+"""The answer in one picture: residuals over a condition, probabilities, and the fit with readings measured later."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING
+from mixedlub.diagnosis.labels import axis_label, explanation_words, in_units_of_case
+from mixedlub.diagnosis.report.figures.charts import colour_of
+from mixedlub.diagnosis.report.figures.maps import frame_of
+from mixedlub.diagnosis.report.figures.style import AFTER, BEFORE, INK, MUTED, OUTLIER, PAPER, blank, look
+from mixedlub.diagnosis.report.text.headline import chance
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+SHOWN = 4
+"""Judgement: most explanations beside none and unknown, so that a bar has room for its words."""
+LEGEND = 0.25
+"""Judgement: room for a legend of two lines, as a share of the scale."""
+LEAST = 0.005
+"""Judgement: smallest probability with a bar that is seen."""
+
+
+def main_condition(d: Diagnosis) -> str:
+    """The condition of the mismatch where it is a number, else the first varied condition, else the run."""
+    numeric = [w["column"] for w in d.region.where if "low" in w]
+    return next(iter([*numeric, frame_of(d).across]), "") or "run"
+
+
+@in_units_of_case
+def in_one(d: Diagnosis, over: str, later: np.ndarray | None = None) -> Figure:
+    """Figure of three panels over a condition; ``later``: readings measured at the requested conditions."""
+    with look():
+        figure = blank(9.6, 3.1)
+        first, middle, last = figure.subplots(1, 3, width_ratios=(1.15, 0.8, 1.25))
+        _residuals(first, d, over)
+        _probabilities(middle, d)
+        _fit(last, d, over, later)
+    return figure
+
+
+def _label(over: str) -> str:
+    return axis_label(over) if over != "run" else "run"
+
+
+def _residuals(axes: Axes, d: Diagnosis, over: str) -> None:
+    """Draw residuals (sigma) of the calibrated base model and of the answer."""
+    before, after = d.residuals
+    x = d.recorded.table[over]
+    axes.axhspan(-2.0, 2.0, color=PAPER, lw=0)
+    for z, colour, name in ((before, BEFORE, "base model, calibrated"), (after, AFTER, "with the answer")):
+        rms = np.sqrt(np.mean(z[d.counted] ** 2))
+        axes.plot(x, z, "o", color=colour, ms=3.2, label=f"{name}: rms {rms:.1f}")
+    axes.set_title("What the simulation misses")
+    axes.set_xlabel(_label(over))
+    axes.set_ylabel("residual (sigma of the noise)")
+    low, high = axes.get_ylim()
+    axes.set_ylim(low - LEGEND * (high - low), high)
+    axes.legend(loc="lower left")
+
+
+def _probabilities(axes: Axes, d: Diagnosis) -> None:
+    """Draw the probabilities of the best explanations, of none and of unknown as bars."""
+    weights = d.posterior.weights
+    rows = [key for key in weights if weights[key] >= LEAST][:SHOWN]
+    rows += [key for key in (NOTHING, DISCREPANCY) if key not in rows]
+    for place, key in enumerate(rows):
+        axes.barh(place, weights.get(key, 0.0), color=colour_of(d, key), height=0.6)
+        text = f"{explanation_words(key.ids)}  {chance(weights.get(key, 0.0))}"
+        axes.annotate(text, (0.0, place - 0.33), xytext=(1, 1), textcoords="offset points", va="bottom", fontsize=7.5)
+    axes.set_xlim(0.0, 1.0)
+    axes.set_ylim(len(rows) - 0.5, -0.9)
+    axes.set_yticks([])
+    axes.grid(axis="y", visible=False)
+    axes.set_title("Why")
+    axes.set_xlabel("probability")
+
+
+def _fit(axes: Axes, d: Diagnosis, over: str, later: np.ndarray | None) -> None:
+    """Draw readings, the base model and the answer; with ``later`` the predictions and the readings after them.
+
+    A drive with readings in both directions is drawn by sizes, so that both branches share one scale.
+    """
+    p = d.handed(d.recorded)
+    x = np.asarray(p.table[over], dtype=float)
+    both_ways = bool((x < 0).any() and (x > 0).any() and (np.sign(x) == np.sign(d.readings)).all())
+    size = np.abs if both_ways else np.asarray
+    for part in _branches(x) if both_ways else [np.argsort(x, kind="stable")]:
+        at, low, high = size(x[part]), size(p.low90[part]), size(p.high90[part])
+        if _alone(d, over):
+            axes.fill_between(at, low, high, color=AFTER, alpha=0.2, lw=0)
+            axes.plot(at, size(p.calibrated[part]), color=BEFORE, lw=1.1, ls="--")
+            axes.plot(at, size(p.predicted[part]), color=AFTER, lw=1.3)
+        else:
+            axes.vlines(at, low, high, color=AFTER, lw=0.8)
+            axes.plot(at, size(p.predicted[part]), "_", color=AFTER)
+            axes.plot(at, size(p.calibrated[part]), "_", color=BEFORE)
+    if both_ways:
+        for part, name in zip(_branches(x), ("backward", "forward"), strict=True):
+            place = part[np.argmax(np.abs(x[part]))]
+            axes.annotate(
+                name,
+                (size(x[place]), size(p.predicted[place])),
+                xytext=(0, -20),
+                textcoords="offset points",
+                ha="right",
+                fontsize=7.5,
+                color=MUTED,
+            )
+    axes.plot(size(x), size(d.readings), "o", color=INK, ms=2.6, label="readings")
+    axes.plot([], [], color=BEFORE, ls="--", label="base model, calibrated")
+    axes.plot([], [], color=AFTER, label="with the answer, 90 %")
+    if later is not None and d.wanted is not None:
+        w = d.handed(d.wanted)
+        at = size(np.asarray(w.table[over], dtype=float))
+        axes.vlines(at, size(w.low90), size(w.high90), color=OUTLIER, lw=1.6, zorder=4)
+        axes.plot(
+            at, size(later), "D", mfc="none", mec=OUTLIER, mew=1.1, ms=5, zorder=5, label="predicted, then measured"
+        )
+    axes.set_title("What it predicts")
+    axes.set_xlabel(f"{'size of ' if both_ways else ''}{_label(over)}")
+    axes.set_ylabel(f"{'size of ' if both_ways else ''}{axis_label(d.case.quantity)}")
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high + 1.7 * LEGEND * (high - low))
+    axes.legend(loc="upper left")
+
+
+def _alone(d: Diagnosis, over: str) -> bool:
+    """Whether no other condition was varied."""
+    names = [c.name for c in d.case.kind.columns if c.name in d.recorded.table and c.name != over]
+    return all(np.unique(d.recorded.table[name]).size == 1 for name in names)
+
+
+def _branches(x: np.ndarray) -> Iterator[np.ndarray]:
+    """Rows in the order of a condition, apart below and above zero, where friction jumps."""
+    order = np.argsort(x, kind="stable")
+    cut = int(np.count_nonzero(x < 0))
+    for start, stop in pairwise([0, cut, x.size]):
+        yield order[start:stop]
