@@ -21,6 +21,7 @@ from mixedlub.diagnosis.report.improved import improved_case
 from mixedlub.diagnosis.report.text.answer import as_json, campaign_record, next_tests_table, predictions
 from mixedlub.diagnosis.report.text.headline import chance
 from mixedlub.schema.findings import as_texts, collected, gravest_first, listed, warn_of
+from mixedlub.schema.shown import lines_html, table_html
 from mixedlub.schema.units import stated_units
 from mixedlub.study.plan import counted
 from profiles.errors import InputError, as_path, nearest
@@ -32,6 +33,9 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from mixedlub.case.folder import Frame
+
+MOST_EFFECTS = 6
+"""Judgement: most effects in the table of a notebook; the others are rarely above 0.01."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -129,6 +133,11 @@ class Answer:
         lines += [f"residuals in standard deviations: rms {before:.2f} before, {after:.2f} with the verdict"]
         lines += [f"{counted(len(self.findings), 'finding')}; summary() is the report"]
         return "\n  ".join(lines)
+
+    def _repr_html_(self) -> str:
+        """Summary and probabilities of a notebook."""
+        rows = [(name, chance(p)) for name, p in self.probabilities.head(MOST_EFFECTS).items()]
+        return lines_html(repr(self)) + table_html("Probabilities", rows, ("effect", "probability"))
 
     def figures(self) -> dict[str, Figure]:
         """Every figure of the report, by name."""
