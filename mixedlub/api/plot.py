@@ -10,6 +10,8 @@ import numpy as np
 from mixedlub.api.diagnosis import Answer
 from mixedlub.api.fit import LawFit
 from mixedlub.api.plot_labelled import of_dataset, of_fit, of_table
+from mixedlub.api.plot_parts import DRAWN as PARTS
+from mixedlub.api.plot_parts import of_part
 from mixedlub.report.figures import equal_pairings
 from mixedlub.report.plots import loss_over, over_speed, over_temperature
 from mixedlub.report.style import styled
@@ -37,13 +39,14 @@ def plot(
     pairings: str | Sequence[str] = (),
     later: ArrayLike | None = None,
 ) -> Figure:
-    """Plot the results of a study, the answer of a diagnosis, a labelled array, a table or fitted laws.
+    """Plot the results of a study, the answer of a diagnosis, a labelled array, a table, fitted laws or a part.
 
     Parameters
     ----------
-    results : Results, Answer, LawFit, xarray.Dataset or pandas.DataFrame
+    results : Results, Answer, LawFit, xarray.Dataset, pandas.DataFrame, Gears, Lubricant or SurfaceSection
         Result of ``ml.study.run``, ``ml.diagnose``, ``ml.fit_laws``, ``ml.power_loss``, ``ml.along_path``,
-        ``ml.load_distribution``, ``ml.gearbox_efficiency`` or ``ml.simulate``, or a table of ``ml.evaluate_recording``.
+        ``ml.load_distribution``, ``ml.gearbox_efficiency`` or ``ml.simulate``, a table of ``ml.evaluate_recording``, or
+        gears, an oil or a surface with a trace.
     quantity : str, optional
         Of a study ``power_loss_W`` (default); over ``speed_rpm`` also ``boundary_area_ratio`` or ``film_parameter``.
         Of an array or table the variable or column; default: loss, friction or load, else the first.
@@ -94,6 +97,9 @@ def plot(
     if isinstance(results, LawFit):
         _only(quantity is None, "quantity", "a study, an array or a table")
         return of_fit(results, over)
+    if isinstance(results, PARTS):
+        _only(quantity is None and over is None, "quantity, over", "results, and a part has one figure")
+        return of_part(results)
     if isinstance(results, xr.Dataset):
         return of_dataset(results, quantity, over)
     if isinstance(results, pd.DataFrame):
