@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from mixedlub.api.plot_parts import DRAWN as PARTS
 from mixedlub.api.plot_parts import of_part
 from mixedlub.report.figures import equal_pairings
 from mixedlub.report.plots import loss_over, over_speed, over_temperature
-from mixedlub.report.style import styled
+from mixedlub.report.style import as_svg, styled
 from mixedlub.study.columns import FIRST
 from mixedlub.study.results import LEVELS, Results
 from profiles.errors import InputError, nearest
@@ -82,6 +83,21 @@ def plot(
     >>> ml.plot(path, "load_share").axes[0].get_xlabel()
     'roll angle (°)'
     """
+    figure = _figure(results, quantity, over, oil_temperature_C, pairings, later)
+    # A notebook shows figures that pyplot has not made by this method alone.
+    setattr(figure, "_repr_svg_", partial(as_svg, figure))  # noqa: B010
+    return figure
+
+
+def _figure(
+    results: Any,
+    quantity: str | None,
+    over: str | None,
+    oil_temperature_C: float | None,
+    pairings: str | Sequence[str],
+    later: ArrayLike | None,
+) -> Figure:
+    """Figure of a result by its type."""
     import pandas as pd
     import xarray as xr
 
