@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -92,39 +92,36 @@ def _fit(axes: Axes, d: Diagnosis, over: str, later: np.ndarray | None) -> None:
     p = d.handed(d.recorded)
     x = np.asarray(p.table[over], dtype=float)
     both_ways = bool((x < 0).any() and (x > 0).any() and (np.sign(x) == np.sign(d.readings)).all())
-    size = np.abs if both_ways else np.asarray
+
+    def turned(values: np.ndarray, at: np.ndarray) -> np.ndarray:
+        return values * np.where(both_ways & (at < 0), -1.0, 1.0)
+
     for part in _branches(x) if both_ways else [np.argsort(x, kind="stable")]:
-        at, low, high = size(x[part]), size(p.low90[part]), size(p.high90[part])
+        own = x[part]
+        at, low, high = (turned(v, own) for v in (own, p.low90[part], p.high90[part]))
+        base, answer = (turned(v[part], own) for v in (p.calibrated, p.predicted))
         if _alone(d, over):
             axes.fill_between(at, low, high, color=AFTER, alpha=0.2, lw=0)
-            axes.plot(at, size(p.calibrated[part]), color=BEFORE, lw=1.1, ls="--")
-            axes.plot(at, size(p.predicted[part]), color=AFTER, lw=1.3)
+            axes.plot(at, base, color=BEFORE, lw=1.1, ls="--")
+            axes.plot(at, answer, color=AFTER, lw=1.3)
         else:
             axes.vlines(at, low, high, color=AFTER, lw=0.8)
-            axes.plot(at, size(p.predicted[part]), "_", color=AFTER)
-            axes.plot(at, size(p.calibrated[part]), "_", color=BEFORE)
-    if both_ways:
-        for part, name in zip(_branches(x), ("backward", "forward"), strict=True):
-            place = part[np.argmax(np.abs(x[part]))]
-            axes.annotate(
-                name,
-                (size(x[place]), size(p.predicted[place])),
-                xytext=(0, -20),
-                textcoords="offset points",
-                ha="right",
-                fontsize=7.5,
-                color=MUTED,
-            )
-    axes.plot(size(x), size(d.readings), "o", color=INK, ms=2.6, label="readings")
+            axes.plot(at, answer, "_", color=AFTER)
+            axes.plot(at, base, "_", color=BEFORE)
+        if both_ways:
+            end, name = int(np.argmax(at)), "backward" if own[0] < 0 else "forward"
+            place: dict[str, Any] = {"xytext": (0, -20), "textcoords": "offset points", "ha": "right"}
+            axes.annotate(name, (at[end], answer[end]), fontsize=7.5, color=MUTED, **place)
+    axes.plot(turned(x, x), turned(d.readings, x), "o", color=INK, ms=2.6, label="readings")
     axes.plot([], [], color=BEFORE, ls="--", label="base model, calibrated")
     axes.plot([], [], color=AFTER, label="with the answer, 90 %")
     if later is not None and d.wanted is not None:
         w = d.handed(d.wanted)
-        at = size(np.asarray(w.table[over], dtype=float))
-        axes.vlines(at, size(w.low90), size(w.high90), color=OUTLIER, lw=1.6, zorder=4)
-        axes.plot(
-            at, size(later), "D", mfc="none", mec=OUTLIER, mew=1.1, ms=5, zorder=5, label="predicted, then measured"
-        )
+        own = np.asarray(w.table[over], dtype=float)
+        at, low, high, read = (turned(v, own) for v in (own, w.low90, w.high90, later))
+        axes.vlines(at, low, high, color=OUTLIER, lw=1.6, zorder=4)
+        mark: dict[str, Any] = {"marker": "D", "mfc": "none", "mec": OUTLIER, "mew": 1.1, "ms": 5, "zorder": 5}
+        axes.plot(at, read, ls="", label="predicted, then measured", **mark)
     axes.set_title("What it predicts")
     axes.set_xlabel(f"{'size of ' if both_ways else ''}{_label(over)}")
     axes.set_ylabel(f"{'size of ' if both_ways else ''}{axis_label(d.case.quantity)}")
