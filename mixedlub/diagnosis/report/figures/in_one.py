@@ -125,8 +125,8 @@ def _fit(axes: Axes, d: Diagnosis, over: str, later: np.ndarray | None) -> None:
     axes.set_title("What it predicts")
     axes.set_xlabel(f"{'size of ' if both_ways else ''}{_label(over)}")
     axes.set_ylabel(f"{'size of ' if both_ways else ''}{axis_label(d.case.quantity)}")
-    low, high = axes.get_ylim()
-    axes.set_ylim(low, high + 1.7 * LEGEND * (high - low))
+    bottom, top = axes.get_ylim()
+    axes.set_ylim(bottom, top + 1.7 * LEGEND * (top - bottom))
     axes.legend(loc="upper left")
 
 
