@@ -176,6 +176,16 @@ def test_an_answer_is_drawn_in_one_picture(drive, answer) -> None:
     assert ml.plot(answer).axes[0].get_xlabel() == "speed (rpm)"
 
 
+def test_an_answer_over_one_of_several_conditions_is_drawn_one_to_one(answer, monkeypatch) -> None:
+    monkeypatch.setattr("mixedlub.diagnosis.report.figures.in_one._alone", lambda *_: False)
+    fit = ml.plot(answer, later=[1.15, 1.20]).axes[2]
+    lines = {line.get_label(): line for line in fit.lines}
+    np.testing.assert_allclose(lines["with the answer"].get_ydata(), answer.diagnosis.readings)
+    np.testing.assert_allclose(lines["with the answer"].get_xdata(), answer.diagnosis.recorded.predicted)
+    np.testing.assert_allclose(lines["predicted, then measured"].get_xdata(), answer.diagnosis.wanted.predicted)
+    assert fit.get_xlabel() == "simulated friction torque (N m)"
+
+
 @pytest.mark.parametrize(
     ("drawn", "keys", "said"),
     [

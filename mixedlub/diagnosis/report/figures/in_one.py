@@ -29,6 +29,13 @@ LEAST = 0.005
 """Judgement: smallest probability with a bar that is seen."""
 
 
+LATER: dict[str, Any] = {
+    **{"marker": "D", "mfc": "none", "mec": OUTLIER, "mew": 1.1, "ms": 5, "zorder": 5},
+    "label": "predicted, then measured",
+}
+"""Style of readings that were measured after their prediction."""
+
+
 def main_condition(d: Diagnosis) -> str:
     """The condition of the mismatch where it is a number, else the first varied condition, else the run."""
     numeric = [w["column"] for w in d.region.where if "low" in w]
@@ -43,7 +50,11 @@ def in_one(d: Diagnosis, over: str, later: np.ndarray | None = None) -> Figure:
         first, middle, last = figure.subplots(1, 3, width_ratios=(1.15, 0.8, 1.25))
         _residuals(first, d, over)
         _probabilities(middle, d)
-        _fit(last, d, over, later)
+        (_along if _alone(d, over) else _one_to_one)(last, d, over, later)
+        last.set_title("What it predicts")
+        bottom, top = last.get_ylim()
+        last.set_ylim(bottom, top + 1.7 * LEGEND * (top - bottom))
+        last.legend(loc="upper left")
     return figure
 
 
@@ -84,8 +95,23 @@ def _probabilities(axes: Axes, d: Diagnosis) -> None:
     axes.set_xlabel("probability")
 
 
-def _fit(axes: Axes, d: Diagnosis, over: str, later: np.ndarray | None) -> None:
-    """Draw readings, the base model and the answer; with ``later`` the predictions and the readings after them.
+def _one_to_one(axes: Axes, d: Diagnosis, over: str, later: np.ndarray | None) -> None:
+    """Draw readings over simulated values, where more conditions than ``over`` were varied."""
+    p = d.handed(d.recorded)
+    ends = [float(d.readings.min()), float(d.readings.max())]
+    axes.plot(ends, ends, color=MUTED, lw=0.8)
+    axes.plot(p.calibrated, d.readings, "o", color=BEFORE, ms=2.6, label="base model, calibrated")
+    axes.plot(p.predicted, d.readings, "o", color=AFTER, ms=2.6, label="with the answer")
+    if later is not None and d.wanted is not None:
+        w = d.handed(d.wanted)
+        axes.hlines(later, w.low90, w.high90, color=OUTLIER, lw=1.6, zorder=4)
+        axes.plot(w.predicted, later, ls="", **LATER)
+    axes.set_xlabel(f"simulated {axis_label(d.case.quantity)}")
+    axes.set_ylabel(f"recorded {axis_label(d.case.quantity)}")
+
+
+def _along(axes: Axes, d: Diagnosis, over: str, later: np.ndarray | None) -> None:
+    """Draw readings, the base model and the answer over the only varied condition, and later readings.
 
     A drive with readings in both directions is drawn by sizes, so that both branches share one scale.
     """
@@ -100,14 +126,9 @@ def _fit(axes: Axes, d: Diagnosis, over: str, later: np.ndarray | None) -> None:
         own = x[part]
         at, low, high = (turned(v, own) for v in (own, p.low90[part], p.high90[part]))
         base, answer = (turned(v[part], own) for v in (p.calibrated, p.predicted))
-        if _alone(d, over):
-            axes.fill_between(at, low, high, color=AFTER, alpha=0.2, lw=0)
-            axes.plot(at, base, color=BEFORE, lw=1.1, ls="--")
-            axes.plot(at, answer, color=AFTER, lw=1.3)
-        else:
-            axes.vlines(at, low, high, color=AFTER, lw=0.8)
-            axes.plot(at, answer, "_", color=AFTER)
-            axes.plot(at, base, "_", color=BEFORE)
+        axes.fill_between(at, low, high, color=AFTER, alpha=0.2, lw=0)
+        axes.plot(at, base, color=BEFORE, lw=1.1, ls="--")
+        axes.plot(at, answer, color=AFTER, lw=1.3)
         if both_ways:
             end, name = int(np.argmax(at)), "backward" if own[0] < 0 else "forward"
             place: dict[str, Any] = {"xytext": (0, -20), "textcoords": "offset points", "ha": "right"}
@@ -120,14 +141,9 @@ def _fit(axes: Axes, d: Diagnosis, over: str, later: np.ndarray | None) -> None:
         own = np.asarray(w.table[over], dtype=float)
         at, low, high, read = (turned(v, own) for v in (own, w.low90, w.high90, later))
         axes.vlines(at, low, high, color=OUTLIER, lw=1.6, zorder=4)
-        mark: dict[str, Any] = {"marker": "D", "mfc": "none", "mec": OUTLIER, "mew": 1.1, "ms": 5, "zorder": 5}
-        axes.plot(at, read, ls="", label="predicted, then measured", **mark)
-    axes.set_title("What it predicts")
+        axes.plot(at, read, ls="", **LATER)
     axes.set_xlabel(f"{'size of ' if both_ways else ''}{_label(over)}")
     axes.set_ylabel(f"{'size of ' if both_ways else ''}{axis_label(d.case.quantity)}")
-    bottom, top = axes.get_ylim()
-    axes.set_ylim(bottom, top + 1.7 * LEGEND * (top - bottom))
-    axes.legend(loc="upper left")
 
 
 def _alone(d: Diagnosis, over: str) -> bool:
