@@ -35,7 +35,7 @@ nitpick_ignore = [("py:func", "extreme_limit"), ("py:func", "roughness.filters.g
 """Functions that docstrings name and that no page lists."""
 
 html_theme = "furo"
-html_title = "mixedlub"
+html_title = f"mixedlub {version}"
 html_math_renderer = "svg"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]

@@ -21,6 +21,7 @@ from mixedlub.diagnosis.report.improved import improved_case
 from mixedlub.diagnosis.report.text.answer import as_json, campaign_record, next_tests_table, predictions
 from mixedlub.diagnosis.report.text.headline import chance
 from mixedlub.schema.findings import as_texts, collected, gravest_first, listed, warn_of
+from mixedlub.schema.shown import lines_html, table_html
 from mixedlub.schema.units import stated_units
 from mixedlub.study.plan import counted
 from profiles.errors import InputError, as_path, nearest
@@ -29,8 +30,12 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from numpy.typing import ArrayLike
 
     from mixedlub.case.folder import Frame
+
+MOST_EFFECTS = 6
+"""Judgement: most effects in the table of a notebook; the others are rarely above 0.01."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -129,11 +134,49 @@ class Answer:
         lines += [f"{counted(len(self.findings), 'finding')}; summary() is the report"]
         return "\n  ".join(lines)
 
+    def _repr_html_(self) -> str:
+        """Summary and probabilities of a notebook."""
+        rows = [(name, chance(p)) for name, p in self.probabilities.head(MOST_EFFECTS).items()]
+        return lines_html(repr(self)) + table_html("Probabilities", rows, ("effect", "probability"))
+
     def figures(self) -> dict[str, Figure]:
         """Every figure of the report, by name."""
         from mixedlub.diagnosis.report.figures.figures import all_figures
 
         return all_figures(self.diagnosis)
+
+    def plot(self, over: str | None = None, later: ArrayLike | None = None) -> Figure:
+        """Plot the answer in one picture: residuals over a condition, probabilities, and the fit.
+
+        Parameters
+        ----------
+        over : str, optional
+            Numeric column of the recording; default: the condition of the mismatch.
+        later : array_like, optional
+            Readings measured afterwards at the conditions of ``predict``, in their order.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            Three panels; the predictions of later readings have their 90 % intervals.
+
+        Raises
+        ------
+        profiles.errors.InputError
+            If the column is unknown or holds names, or later readings do not match the predictions.
+        """
+        from mixedlub.diagnosis.report.figures.in_one import in_one, main_condition
+
+        d, table = self.diagnosis, self.diagnosis.recorded.table
+        numeric = {n: v for n, v in table.columns.items() if v.dtype.kind in "fiu"}
+        if over is not None and over not in numeric:
+            raise InputError(f"no such column of numbers; {nearest(over, numeric)}", where="plot: over", value=over)
+        asked = 0 if d.wanted is None else len(d.wanted.table)
+        measured = None if later is None else np.atleast_1d(np.asarray(later, dtype=float))
+        if measured is not None and measured.shape != (asked,):
+            rule = f"must hold a reading for each of the {counted(asked, 'condition')} of predict"
+            raise InputError(f"{rule}, not {measured.size}", where="plot: later")
+        return in_one(d, main_condition(d) if over is None else over, measured)
 
     def plot_residuals(self, over: str = "run", axes: Axes | None = None) -> Axes:
         """Plot residuals (standard deviations) over a column of the recording, before and after the answer."""

@@ -10,10 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 from mixedlub.fit import Ranking, checked, of_columns, ranking, read_readings, result, tables
 from mixedlub.schema.findings import collected, warn_of
+from mixedlub.schema.shown import table_html
 from profiles.errors import as_path
 
 if TYPE_CHECKING:
     import pandas as pd
+
+MOST_LAWS = 8
+"""Judgement: most laws in the table of a notebook."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +69,12 @@ class LawFit:
 
     def __repr__(self) -> str:
         return "\n".join(result(self.ranking, "").lines)
+
+    def _repr_html_(self) -> str:
+        """Table of a notebook: the laws, best first."""
+        columns = ["law", "weight", "rms_percent", "left_out_percent", "misfit"]
+        rows = self.laws[columns].head(MOST_LAWS).itertuples(index=False)
+        return table_html(f"Laws of {self.ranking.readings.column}", rows, columns)
 
 
 def fit_laws(

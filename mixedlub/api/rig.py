@@ -7,6 +7,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+from mixedlub.api.signatures import with_keys_of
 from mixedlub.rig import build
 from mixedlub.rig.measured import Measured
 from mixedlub.schema.findings import collected, warn_of
@@ -19,6 +20,7 @@ from profiles import SHIPPED_MARK, Profile, shipped
 from profiles.errors import InputError, as_path
 
 
+@with_keys_of(Gears)
 def gear_pair(**keys: Any) -> Gears:
     """A pair of gears; with a negative number of teeth the second is a ring gear.
 
@@ -54,6 +56,7 @@ def gear_pair(**keys: Any) -> Gears:
     return parse(Gears, keys, "gear_pair")
 
 
+@with_keys_of(Lubricant)
 def oil(named: str | None = None, /, **keys: Any) -> Lubricant:
     """An oil by name, by file or by base stock.
 
@@ -96,6 +99,7 @@ def oil(named: str | None = None, /, **keys: Any) -> Lubricant:
     return section
 
 
+@with_keys_of(SurfaceSection, without="profile")
 def surface(profile: str | PathLike[str] | Profile | None = None, **keys: Any) -> SurfaceSection:
     """A surface: a measured trace, or three spectral moments.
 

@@ -23,6 +23,7 @@ from mixedlub.rig.rig import Rig
 from mixedlub.running.shell import quoted
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, listed, report
+from mixedlub.schema.shown import Summarised
 from mixedlub.schema.table import (
     BOOKKEEPING,
     RUN,
@@ -52,7 +53,7 @@ RUNS_LISTED = 5
 
 
 @dataclass(frozen=True)
-class Case:
+class Case(Summarised):
     """Everything in a case folder, checked. ``laws``: laws of the user by id, of which the ``hypotheses`` compete with
     the catalogue and the others are named in ``[effects]``. It prints as a summary:
 

@@ -23,6 +23,7 @@ from pydantic_core import PydanticCustomError
 
 from mixedlub.schema.messages import printable
 from mixedlub.schema.ranges import Range, range_of, range_violation, ranges
+from mixedlub.schema.shown import table_html
 from mixedlub.schema.units import unit_of
 
 
@@ -99,6 +100,22 @@ class Section(BaseModel):
         if rule:
             raise ValueError(rule)
         return printable(value) if isinstance(value, str) else value
+
+    def __repr_args__(self) -> Iterator[tuple[str, Any]]:
+        """Keys with another value than their default, for a short repr."""
+        for name, field in type(self).model_fields.items():
+            value = getattr(self, name)
+            if field.is_required() or value != field.get_default(call_default_factory=True):
+                yield name, value
+
+    def _repr_html_(self) -> str:
+        """Table of a notebook: keys with another value than their default, with unit and meaning."""
+        fields = type(self).model_fields
+        rows = [
+            (name, value, unit_of(name), (fields[name].description or "").partition(";")[0])
+            for name, value in self.__repr_args__()
+        ]
+        return table_html(type(self).__name__.removesuffix("Section"), rows, ("key", "value", "unit", "meaning"))
 
 
 def check_keys_of(section: Section, option: str, takes: Mapping[str, Sequence[str]]) -> None:

@@ -15,6 +15,7 @@ from mixedlub.chain.ranges import as_words
 from mixedlub.running.version import installed_version
 from mixedlub.schema.findings import Finding, as_texts, gravest_first, listed
 from mixedlub.schema.result import ResultColumn
+from mixedlub.schema.shown import Summarised
 from mixedlub.schema.table import span
 from mixedlub.schema.table_files import LongTable, write_long
 from mixedlub.schema.units import unit_of
@@ -53,7 +54,7 @@ LONGEST_TITLE = 36
 
 
 @dataclass(frozen=True, eq=False)
-class Results:
+class Results(Summarised):
     """Outputs of a study in SI by name, each of shape (pairing, oil temperature, torque, speed).
 
     `to_xarray` and `to_pandas` return them in the units of the table. Printed as a summary:

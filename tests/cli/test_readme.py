@@ -1,12 +1,17 @@
 """What the README shows runs, and what it claims is in the score tables."""
 
+import os
 import re
+import shutil
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from mixedlub.cli import COMMANDS, main
+from mixedlub.cli import COMMANDS
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -35,11 +40,35 @@ def test_python_of_the_readme_runs(monkeypatch, capsys):
 
 
 @pytest.mark.long
-def test_verdict_of_the_readme_is_that_of_the_example(tmp_path):
-    assert main(["diagnose", str(ROOT / "examples/case"), "--out", str(tmp_path)]) == 0
-    report = " ".join((tmp_path / "report.txt").read_text(encoding="utf-8").split())
-    for line in block("text").splitlines():
-        assert line in report
+def test_picture_and_numbers_of_the_first_page_are_those_of_the_example(tmp_path):
+    """README and the first page of the docs state what the script finds in the measured readings."""
+    copy = tmp_path / "examples"
+    shutil.copytree(ROOT / "examples/real/tables", copy / "real/tables")
+    shutil.copy(ROOT / "examples/05_missing_physics.py", copy)
+    script = [sys.executable, "05_missing_physics.py"]
+    found = subprocess.run(script, cwd=copy, env=os.environ, capture_output=True, text=True, check=True).stdout
+    (probability,) = re.findall(r"Missing physics: Stribeck \(probability ([\d.]+)\)", found)
+    (largest,) = re.findall(r"Largest at run \d+ .*: -?([\d.]+) sigma", found)
+    rows = re.findall(r"rpm: (\S+) N m \((\S+) to (\S+)\), calibrated base model (\S+), measured (\S+)", found)
+    assert len(rows) == 2
+    for _, low, high, _, measured in rows:
+        assert float(low) <= float(measured) <= float(high)
+    predicted, _, _, base, measured = rows[1]
+    for page in (ROOT / "README.md", ROOT / "docs/index.md"):
+        text = " ".join(page.read_text(encoding="utf-8").split())
+        assert f"Stribeck friction with probability {probability}" in text
+        assert f"up to {float(largest):.0f} times the noise" in text
+        assert f"{predicted} N m predicted, {measured} measured" in text
+        assert f"says {base} (right)" in text
+    drawn, kept = ((folder / "missing_physics.svg").read_text(encoding="utf-8") for folder in (copy, ROOT / "examples"))
+    words = re.findall(r"<!-- (.*?) -->", kept)
+    assert "predicted, then measured" in words
+    assert re.findall(r"<!-- (.*?) -->", drawn) == words
+    marks = [
+        np.array(re.findall(r'<use [^>]*x="([-\d.]+)" y="([-\d.]+)"', text), dtype=float) for text in (drawn, kept)
+    ]
+    assert len(marks[0]) > 3 * 34
+    np.testing.assert_allclose(*marks, atol=1.0)
 
 
 def test_every_command_is_in_the_readme():
