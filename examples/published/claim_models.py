@@ -291,7 +291,7 @@ def computed(claims: Mapping[str, Sequence[str]]) -> Iterator[dict[str, Any]]:
             corners = [at(dict(zip(OF_PAPER[paper], one, strict=True))) for one in product(*_ends(paper))]
             alone = {name: [at({name: end}) for end in OPEN[name]] for name in OF_PAPER[paper]}
             for number, claim in enumerate(words):
-                each = [one[number] for one in corners]
+                each = [value[number], *(one[number] for one in corners)]
                 row = {"paper": paper, "claim": claim, "model": model, "value": value[number]}
                 row |= {"low": min(each), "high": max(each)}
                 for name, ends in alone.items():
