@@ -77,8 +77,8 @@ def flattening(waves: Sequence[tuple[Waves, float]], flattens: bool, cutoff_shar
 
     >>> ripple = Waves(np.array([60e-6]), np.ones((3, 1)))
     >>> one = flattening([(ripple, 1.0)], True, None)
-    >>> round(float(one.kept(0, np.array(0.0), np.array(1.1 / 60e-6), np.array(1.0)) ** 0.5), 3)
-    0.818
+    >>> round(float(one.kept(0, np.array(0.0), np.array(1.1 / 60e-6), np.array(1.0)) ** 0.5), 2)
+    0.82
     """
     rates = np.exp(RATES) if flattens else np.zeros(1)
     cutoffs = np.zeros(1) if cutoff_share is None else np.exp(CUTOFFS)
