@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from mixedlub.case.base import Base
+from mixedlub.case.flattened import flattened
 from mixedlub.case.folder import Case
 from mixedlub.case.missing_part import MissingPart, as_effect
 from mixedlub.chain.effect import Effect
@@ -113,12 +114,15 @@ class Forward:
     def _based(self, formulas: Chain) -> Base:
         """The base that the case names; full solutions cover its recordings and conditions."""
         case = self.case
+        base = flattened(case.kind, case.system, case.rig, self.table, formulas)
         if case.system.base == "formulas":
-            return Base(formulas)
+            return base
         from mixedlub.case.full_base import full_base
 
         tables = [t for t in (case.recordings, case.conditions) if t is not None] or [self.table]
-        return full_base(case.kind, case.system, case.rig, tables, formulas, self.inputs)
+        full = full_base(case.kind, case.system, case.rig, tables, base.chain, self.inputs)
+        inputs, contained = {**base.inputs, **full.inputs}, (*base.contained, *full.contained)
+        return replace(full, inputs=inputs, contained=contained)
 
     def with_laws(self, case: Case) -> Forward:
         """The same rows of a case that has further laws."""

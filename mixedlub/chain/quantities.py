@@ -92,6 +92,15 @@ height_share            | s_0        | -       | share of the first surface in t
 slope_share             | s_2        | -       | share of the first surface in the variance of the slopes
 curvature_share         | s_4        | -       | share of the first surface in the variance of the curvatures
 height_row              | j          | -       | row of the pairing in the contact integrals, -1 for normal heights
+first_waves             | i_1        | -       | row of the first surface in the tables of flattened waves
+second_waves            | i_2        | -       | row of the second surface in the tables of flattened waves
+flattening_rate         | g          | 1/m     | Venner's number of a wave in the film over its length
+film_m0                 | m_0'       | m^2     | variance of the heights inside the film
+film_m2                 | m_2'       | -       | variance of the slopes inside the film
+film_m4                 | m_4'       | 1/m^2   | variance of the curvatures inside the film
+film_height_share       | s_0'       | -       | first surface's share of the heights inside the film
+film_slope_share        | s_2'       | -       | first surface's share of the slopes inside the film
+film_curvature_share    | s_4'       | -       | first surface's share of the curvatures inside the film
 peklenik_number         | gamma      | -       | correlation length of heights along the motion over that across it
 smooth_film             | h_0        | m       | film thickness if the surfaces were smooth
 film_over_roughness     | Lambda     | -       | film thickness over composite roughness at a point of the path

@@ -4,7 +4,7 @@ import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import LogNormal, Uniform
-from mixedlub.laws.film import wave_amplitude
+from mixedlub.laws.flattening import wave_amplitude
 
 REFERENCE = 0.01
 NODES, WEIGHTS = np.polynomial.hermite_e.hermegauss(3)

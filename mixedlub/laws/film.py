@@ -377,20 +377,3 @@ def with_other_exponents(
     """
     flow = power(viscosity * entrainment_speed / middle_flow, speed_exponent_change)
     return law_film * flow * power(load / middle_load, load_exponent_change)
-
-
-def wave_amplitude(wavelength: np.ndarray, moes_load: np.ndarray, moes_material: np.ndarray) -> np.ndarray:
-    r"""Amplitude of a transverse wave inside a rolling line contact over that outside (-); the film presses it flat.
-
-    .. math:: \frac{A_d}{A_i} = \frac{1}{1 + 0.17\,\nabla + 0.03\,\nabla^2},\quad
-              \nabla = \frac{\lambda_w}{b_H}\frac{M^{3/4}}{L^{1/2}}
-
-    ``wavelength`` is in half widths of the contact; M = W (2U)^{-1/2} and L = G (2U)^{1/4} are Moes' groups. Within 5 %
-    of solutions for wavelengths up to one half width, too large a reduction above. Source: C. H. Venner, A. A.
-    Lubrecht, J. Tribol. 116 (1994) 751, with the constants for lines of their Proc. IMechE J 213 (1999) 397.
-
-    >>> round(float(wave_amplitude(1.0, 100.0, 11.0)), 3)   # solution of Venner and others, 1997: 0.183
-    0.187
-    """
-    nabla = wavelength * power(moes_load, 0.75) * power(moes_material, -0.5)
-    return 1.0 / (1.0 + 0.17 * nabla + 0.03 * nabla**2)

@@ -353,6 +353,7 @@ def surface(name: str, section: surface_file.SurfaceSection, found: Measured | N
         steps=() if found is None else found.steps,
         cutoff=None if found is None else found.cutoffs.get("cutoff"),
         short_cutoff=None if found is None else found.cutoffs.get("short_cutoff"),
+        profiles=() if found is None or found.across is None else found.across.filtered,
     )
     if made.bandwidth < LEAST_NAYAK:
         text = f"Nayak alpha is {made.bandwidth:.2f}, below the 1.5 of any isotropic Gaussian surface"

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from mixedlub.laws.contact import MEAN_OF_NORMAL
 from mixedlub.schema.findings import Finding, finding
 from profiles.errors import InputError
+from profiles.profile import Profile
 
 
 @dataclass(frozen=True)
@@ -19,7 +20,7 @@ class Surface:
     ``m2`` and ``m4`` are across the ``lay`` if known, ``m2_along`` and ``m4_along`` along it (None without a lay).
     ``peklenik``: correlation length across over along the lay; ``steps``: processing of the trace; ``mean_over_rms``:
     measured Ra over sqrt(m0). ``cutoff``, ``short_cutoff``: wavelengths of the applied filters (m); None if there are
-    none.
+    none. ``profiles``: filtered traces across the lay; empty for stated moments and maps.
     """
 
     name: str
@@ -39,6 +40,7 @@ class Surface:
     mean_over_rms: float | None = None
     cutoff: float | None = None
     short_cutoff: float | None = None
+    profiles: tuple[Profile, ...] = field(default=(), compare=False, repr=False)
 
     @property
     def mean_roughness(self) -> float:

@@ -135,6 +135,12 @@ BASES = {
     "full_solution": "full thermal, non-Newtonian solutions for the oil, by an emulator that is built once",
 }
 """Bases of film and film friction."""
+FLATTENING = {
+    "none": "the roughness as measured, whatever the film presses flat",
+    "waves": "the roughness inside the film: the pressure leaves each wave of each surface a part of its amplitude",
+}
+"""Choices for the roughness of the asperities."""
+CUTOFF_SHARE = "short cut-off of the asperities over the half width of the contact; left out: that of the traces"
 
 
 class Contact(Section):
@@ -341,6 +347,10 @@ class System(RigFile):
         "formulas",
         values=BASES,
     )
+    flattening: Literal["none", "waves"] = key(
+        "roughness of the asperities; only for contacts along a line", "none", values=FLATTENING
+    )
+    short_cutoff_over_half_width: Number | None = key(CUTOFF_SHARE, None, example=0.1, alternative=True)
     contact: Contact | None = key("two entries: first and second body", None)
     uncertainty: SerializeAsAny[Uncertainty] = key(
         "one standard deviation of what calibration may move; 0: known", Uncertainty()

@@ -28,6 +28,7 @@ from profiles.errors import InputError
 
 UNREAD = (
     *("base", "balance", "bands", "conditions_of", "averaging", "film_roughness", "heights"),
+    *("flattening", "short_cutoff_over_half_width"),
     *("bulk_temperature_rise_K", "path_points", "face_slices"),
 )
 """Options of a study without use here."""

@@ -42,6 +42,8 @@ def input_fingerprint(plan: Plan) -> str:
             digest.update(value.tobytes())
     for table in () if plan.heights is None else (plan.heights.area, plan.heights.load):
         digest.update(table.tobytes())
+    if plan.flattening is not None:
+        digest.update(plan.flattening.logs.tobytes())
     if plan.full is not None:
         for process in (plan.full.film, plan.full.stress):
             digest.update(np.ascontiguousarray(process.weights).tobytes())

@@ -105,7 +105,8 @@ class Comparison:
 
     def _inputs(self, inputs: Mapping[str, Any]) -> dict[str, Any]:
         surfaces = surface_inputs([(self.study.surfaces[a], self.study.surfaces[b]) for a, b in self.study.pairings])
-        own = {name: value for name, value in self.study.plan.inputs.items() if name == "height_row"}
+        rows = ("height_row", "first_waves", "second_waves")
+        own = {name: value for name, value in self.study.plan.inputs.items() if name in rows}
         return {**inputs, **surfaces, **own}
 
     def _table(self, name: str, place: np.ndarray, inputs: Mapping[str, Any]) -> pd.DataFrame:

@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING, Any
 from mixedlub import friction
 from mixedlub.base_model.balanced import balanced
 from mixedlub.base_model.chains import GEAR_LOSS
+from mixedlub.base_model.flattened import Flattening, with_flattening
 from mixedlub.chain.model import Chain, Law, Model
+from mixedlub.chain.renamed import renamed
 from mixedlub.chain.slots import FILM, SLIDING_POWER, SLOTS, VISCOSITY
 from mixedlub.laws import contact, heating, loss, oil, pitch_point, safety
 from mixedlub.laws.contact import asperity_pressure, mean_hertz_pressure
@@ -64,9 +66,12 @@ def at_hardness(strength: float, hardness: float) -> Law:
 
 
 def study_chain(
-    options: Options, asperities: Mapping[str, Law] = MappingProxyType({}), full: Emulator | None = None
+    options: Options,
+    asperities: Mapping[str, Law] = MappingProxyType({}),
+    full: Emulator | None = None,
+    flattening: Flattening | None = None,
 ) -> Chain:
-    """Gear chain with the chosen laws, with laws of ``asperities`` for non-normal heights, and with full solutions.
+    """Gear chain with the chosen laws, and with ``asperities`` of other heights, full solutions and flattened waves.
 
     >>> dict(study_chain(Options(effective_viscosity="secant")))["shear_stress"].__name__
     'ree_eyring_secant'
@@ -80,6 +85,7 @@ def study_chain(
     if options.friction != friction.BASE:
         own = friction.find(options.friction).with_coefficients(options.friction_coefficients)
         chain = with_friction(chain, own)
+    chain = chain if flattening is None else with_flattening(chain, flattening)
     chain = chain if options.balance == "none" else balanced(chain)
     if full is not None:
         from mixedlub.full_base.chain import with_full_base
@@ -137,24 +143,6 @@ def at_pitch_point(law: Law) -> Law:
     ('mesh_line_load', 'pitch_radius', 'reduced_modulus')
     """
     return renamed(law, _AT_PITCH_POINT)
-
-
-def renamed(law: Law, names: Mapping[str, str]) -> Law:
-    """A law with some of its arguments renamed.
-
-    >>> tuple(inspect.signature(renamed(rough_film, {"smooth_film": "film_thickness"})).parameters)
-    ('film_thickness', 'm0', 'peklenik_number')
-    """
-
-    @wraps(law)
-    def same(*values: Any) -> Any:
-        return law(*values)
-
-    own = inspect.signature(law)
-    same.__signature__ = own.replace(  # type: ignore[attr-defined]
-        parameters=[a.replace(name=names.get(name, name)) for name, a in own.parameters.items()]
-    )
-    return same
 
 
 _AT_PITCH_POINT = {

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mixedlub import friction
+from mixedlub.base_model.flattened import Flattening, of_flattened
 from mixedlub.base_model.limits import law_limits
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Chain, Law, Model, Parameters
@@ -32,6 +33,7 @@ from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.plausibility import implausible
 from mixedlub.rig.rig import Rig
 from mixedlub.rig.surface import Surface, mean_assumed, mean_over_rms, paired
+from mixedlub.rig.waves import WaveRows, wave_rows
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, report
 from mixedlub.schema.table_files import escaped
@@ -105,6 +107,7 @@ class Plan:
     safety: Safety | None = None
     laws: Mapping[str, Effect] = field(default_factory=dict)
     full: Emulator | None = None
+    flattening: Flattening | None = None
 
     @property
     def effects(self) -> tuple[Effect, ...]:
@@ -145,7 +148,7 @@ class Plan:
 
     def chain(self, options: Options) -> Chain:
         """Chain of options with the heights of this study, and with full solutions if they are the base."""
-        return study_chain(options, self._of_heights, self.full)
+        return study_chain(options, self._of_heights, self.full, self.flattening)
 
     @property
     def friction(self) -> FrictionLaw | None:
@@ -177,6 +180,10 @@ class Plan:
     @property
     def asperities(self) -> Law:
         """Law of the pressure of the asperities; with yielding if plasticity is on."""
+        return self._asperities if self.flattening is None else of_flattened(self._asperities)
+
+    @property
+    def _asperities(self) -> Law:
         plastic = self.parameters.get("asperity_plasticity")
         if self.heights is not None:
             return self._of_heights[ASPERITY_LOAD.quantity]
@@ -308,9 +315,14 @@ def _resolve(name: str, given: StudyFile, rig: Rig) -> Study:
     surfaces = {s: rig.surface(s) for s in used}
     for s, one in surfaces.items():
         check_bandwidth(one, file.surfaces[s])
+    waves = wave_rows(options.flattening, options.short_cutoff_over_half_width, file.effects, "options.")
+
+    def of_surfaces(pairs: list[tuple[Surface, Surface]]) -> dict[str, np.ndarray]:
+        return surface_inputs(pairs, waves)
+
     inputs = {
         **condition_inputs(file, pair, points, oil),
-        **surface_inputs([(surfaces[a], surfaces[b]) for a, b in chosen]),
+        **of_surfaces([(surfaces[a], surfaces[b]) for a, b in chosen]),
     }
     _check_film_roughness(file, surfaces)
     levels = file.conditions
@@ -321,13 +333,14 @@ def _resolve(name: str, given: StudyFile, rig: Rig) -> Study:
     full = None if options.base == "formulas" else _full_base(file, rig, oil, inputs)
     if full is not None:
         inputs |= {**FULL_INPUTS, "entering_stress": inputs["eyring_stress"]}
+    moved = groups(options.bands, rig, surfaces, chosen, of_surfaces)
+    flat = None if waves is None else waves.tables(options.flattening, options.short_cutoff_over_half_width)
     if any(HEAT in e.reads for e in find(sorted(file.effects), "effects", laws)):
-        bare = Model(study_chain(options, {} if heights is None else heights.laws(), full), tuple(inputs), (LOSS,))
-        inputs |= heat_inputs(bare, inputs, shape, points.position.size)
+        chain = study_chain(options, {} if heights is None else heights.laws(), full, flat)
+        inputs |= heat_inputs(Model(chain, tuple(inputs), (LOSS,)), inputs, shape, points.position.size)
     active, parameters = chosen_effects(file, inputs, laws)
-    moved = groups(options.bands, rig, surfaces, chosen, surface_inputs)
     inputs |= rating_inputs(inputs, parameters)
-    plan = Plan(inputs, options, parameters, shape, points.position.size, moved, heights, file.safety, laws, full)
+    plan = Plan(inputs, options, parameters, shape, points.position.size, moved, heights, file.safety, laws, full, flat)
     check_friction(file, plan.model())
     if plan.reads_mean_roughness:
         for found in mean_assumed(surfaces.values()):
@@ -404,9 +417,10 @@ def mesh_inputs(points: Mesh, share: np.ndarray, torque: np.ndarray, speed: np.n
     }
 
 
-def surface_inputs(pairs: list[tuple[Surface, Surface]]) -> dict[str, np.ndarray]:
-    """Inputs of the surfaces by pairing."""
+def surface_inputs(pairs: list[tuple[Surface, Surface]], waves: WaveRows | None = None) -> dict[str, np.ndarray]:
+    """Inputs of the surfaces by pairing, with the rows of their waves where these flatten."""
     first, second = [a for a, _ in pairs], [b for _, b in pairs]
     both = {**paired(first, second), "mean_over_rms": mean_over_rms(first, second)}
+    both |= {} if waves is None else waves.inputs(first, second)
     alike = {name for name in SOLIDS if np.ptp(both[name]) == 0.0}
     return {name: (v[:1] if name in alike else v).reshape(-1, 1, 1, 1, 1) for name, v in both.items()}

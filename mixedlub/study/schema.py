@@ -14,7 +14,7 @@ from mixedlub.friction import BASE, PLACES, catalogue
 from mixedlub.schema.friction_file import coefficients_of
 from mixedlub.schema.section import Number, NumberOrName, Section, Whole, check_keys_of, key, table, with_ranges
 from mixedlub.schema.surface_file import SurfaceSection
-from mixedlub.schema.system_file import BASES, Gears, RigFile
+from mixedlub.schema.system_file import BASES, CUTOFF_SHARE, FLATTENING, Gears, RigFile
 
 MOST_LEVELS = 100_000
 
@@ -162,6 +162,8 @@ class Options(_Laws):
             "lines describe it, else the measured heights",
         },
     )
+    flattening: Literal["none", "waves"] = key("roughness of the asperities", "none", values=FLATTENING)
+    short_cutoff_over_half_width: Number | None = key(CUTOFF_SHARE, None, example=0.1, alternative=True)
     bands: Literal["none", "traces", "short_cutoff", "both"] = key(
         "low and high columns of every result but input power, loss factors, temperature of the teeth and losses by "
         "single effects; the temperature of the teeth is kept in all bands",

@@ -9,7 +9,7 @@ from mixedlub.effects.inlet_shear_heating import inlet_shear_heating
 from mixedlub.effects.inlet_shear_thinning import inlet_shear_thinning
 from mixedlub.effects.micro_ehl import micro_ehl
 from mixedlub.effects.roughness_lay import roughness_lay
-from mixedlub.laws.film import wave_amplitude
+from mixedlub.laws.flattening import wave_amplitude
 
 
 @pytest.mark.literature(
