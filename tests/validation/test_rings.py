@@ -1,15 +1,19 @@
 """Ring gears and planetary meshes of the validation against the package's own gears and trains."""
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from mixedlub.case.folder import read_case
 from mixedlub.case.forward import Forward
+from mixedlub.cli import main
+from mixedlub.diagnosis.diagnose import diagnose_case
 from mixedlub.gear import GearPair
-from mixedlub.validation.battery import generate, plan
+from mixedlub.validation.battery import generate, make, plan
 from mixedlub.validation.case_folder import write
 from mixedlub.validation.contact import Calibration
 from mixedlub.validation.rigs import KINDS, RINGS, gears, rings
+from mixedlub.validation.sample_case import Order
 
 from .helpers import readings, truth_of
 
@@ -39,6 +43,19 @@ def test_a_clean_rig_reads_what_the_package_simulates(pair, tmp_path):
     write(tmp_path, case, {"power_loss_W": expected}, np.arange(len(expected)) == 0, {})
     read = read_case(tmp_path)
     assert Forward(read, read.recordings).predict() == pytest.approx(expected[1:], rel=5e-4)
+
+
+def test_a_ring_gear_case_is_simulated_and_all_effects_are_finite_on_it(tmp_path):
+    case = gears.draw_case(np.random.default_rng(2), True, rings.RINGS)
+    expected = readings(gears.inputs_of(case, 2_000), Calibration(case.settings["boundary_friction"]))
+    write(tmp_path / "case", case, {"power_loss_W": expected}, np.arange(len(expected)) % 20 > 0, {})
+    assert main(["simulate", str(tmp_path / "case"), "--out", str(tmp_path / "out")]) == 0
+    simulated = pd.read_csv(tmp_path / "out" / "simulation.csv").set_index("run")["power_loss_W"]
+    assert simulated[case.columns["run"]].to_numpy() == pytest.approx(expected, rel=5e-3)
+    read = read_case(tmp_path / "case")
+    forward = Forward(read, read.recordings)
+    for effect in forward.effects():
+        assert np.isfinite(forward.predict(None, {effect.id: effect.prior_medians})).all(), effect.id
 
 
 @pytest.mark.parametrize("of", rings.SETS, ids=lambda of: "/".join(str(z) for z in of["teeth"].values()))
@@ -77,3 +94,14 @@ def test_every_case_is_a_gear_pair_that_the_package_reads(tmp_path):
         nominal = dict(zip(truth["rows"]["run"], truth["rows"]["nominal"]))
         expected = [nominal[int(run)] for run in case.recordings["run"]]
         assert Forward(case, case.recordings).predict() == pytest.approx(expected, rel=5e-3)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("place", "kind", "effect"), [(0, "ring_gear", "film_heating"), (1, "planetary", "churning")])
+def test_a_planted_effect_is_named_on_the_mesh_of_a_ring_and_of_a_planet(tmp_path, place, kind, effect):
+    order = Order("case", kind, "single", (effect,), "clear", small=True)
+    make(3, place, order, tmp_path)
+    truth = truth_of(tmp_path / "case")
+    assert truth["identifiable"]
+    answer = diagnose_case(tmp_path / "case")
+    assert [list(key.ids) for key in answer.posterior.tied] == [[effect]]
