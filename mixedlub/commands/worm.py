@@ -40,7 +40,7 @@ def command(
 
     with input_errors_from(str(file)):
         drive, notes = read_drive(file)
-        to = how.open(file.stem, origin_of_file(file), TABLES, "file", JSON)
+        to = how.open(file.stem, origin_of_file(file), TABLES, "file", JSON, FILE)
         losses = drive.map()
         made = {"map": map_table(losses), "geometry": geometry_table(drive)}
     print_findings([*locking(drive, losses), *notes])

@@ -53,7 +53,7 @@ def kinds_text(name: str | None = None) -> str:
     lines += (
         []
         if name
-        else ["Files: `mixedlub kinds study`, `factors`, `gear`, `bevel`, `worm`, `efficiency`, `ehl`,", "`law`."]
+        else ["Files: `mixedlub kinds study`, `factors`, `gear`, `bevel`, `worm`, `efficiency`,", "`ehl`, `law`."]
     )
     for k in chosen:
         lines += ["", *_kind(k)]

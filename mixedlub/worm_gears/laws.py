@@ -21,14 +21,14 @@ def lead_angle(threads: int, axial_module: float, worm_diameter: float) -> float
     return float(np.arctan(axial_module * threads / worm_diameter))
 
 
-def sliding_speed(worm_speed: np.ndarray, worm_diameter: float, lead: float) -> np.ndarray:
+def sliding_speed(worm_speed: np.ndarray | float, worm_diameter: float, lead: float) -> np.ndarray:
     r"""Sliding speed (m/s) at the reference cylinder along the thread.
 
     .. math:: v_g = \frac{\omega_1 d_1}{2\cos\gamma}
 
     Source: ISO/TR 14521.
     """
-    return worm_speed * worm_diameter / (2.0 * np.cos(lead))
+    return np.asarray(worm_speed * worm_diameter / (2.0 * np.cos(lead)))
 
 
 def mean_film(

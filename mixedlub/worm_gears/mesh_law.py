@@ -33,7 +33,7 @@ drive_speed_rpm = [{slowest}, {fastest}]
 
 def _number(value: float) -> str:
     """Number without an exponent, which expressions would read as a name."""
-    return f"{value:.10f}".rstrip("0").rstrip(".")
+    return f"{value:.15f}".rstrip("0").rstrip(".")
 
 
 def _friction(drive: Drive) -> str:

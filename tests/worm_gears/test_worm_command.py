@@ -139,6 +139,7 @@ def test_the_mesh_is_back_driving_with_the_product_of_both_tangents(tmp_path):
 def test_a_friction_map_of_a_worm_drive_is_explained_by_its_mesh(tmp_path):
     """Dry and viscous friction and a mesh of 1.15 times AGMA's friction, with noise of 0.02 N m."""
     from mixedlub.diagnosis.diagnose import diagnose_case
+    from mixedlub.diagnosis.report.text.answer import as_json
 
     drive, _ = read_drive(written(tmp_path))
     speed, torque, _ = friction_map(drive)
@@ -157,5 +158,8 @@ def test_a_friction_map_of_a_worm_drive_is_explained_by_its_mesh(tmp_path):
     columns = {"run": np.arange(1, speed.size + 1), "speed_rpm": speed, "torque_Nm": torque}
     pd.DataFrame({**columns, "friction_torque_Nm": reading}).to_csv(case / "recordings.csv", index=False)
     answer = diagnose_case(case)
-    assert answer.posterior.tied[0].ids == ("worm_mesh",)
-    assert answer.posterior.inclusion(answer.search)["worm_mesh"] > 0.9
+    assert [key.ids for key in answer.posterior.tied] == [("worm_mesh",)]
+    found = as_json(answer)
+    assert max(found["probabilities"].get(name, 0.0) for name in ("back_driving", "load_dependent_friction")) < 0.01
+    (effect,) = found["effects"]
+    assert effect["parameters"][0]["value"] == pytest.approx(1.15, abs=0.02)
