@@ -41,6 +41,7 @@ from mixedlub.commands import (
     schema,
     simulate,
     study,
+    worm,
 )
 from mixedlub.commands.console import (
     drop_empty_folders,
@@ -67,6 +68,7 @@ COMMANDS = (
     simulate,
     gear,
     bevel,
+    worm,
     efficiency,
     ehl,
     law_errors,

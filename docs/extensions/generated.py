@@ -35,6 +35,7 @@ OF_CASES = re.compile(r"^(lubricant|surfaces|options)\b")
 RESULTS = {
     "gear": ("mixedlub.gear.analysis.table", "TABLES"),
     "bevel": ("mixedlub.skew_gears.table", "TABLES"),
+    "worm": ("mixedlub.worm_gears.table", "TABLES"),
     "efficiency": ("mixedlub.efficiency.table", "TABLES"),
     "ehl": ("mixedlub.ehl.table", "TABLES"),
     "friction": ("mixedlub.study.friction_comparison", "TABLES"),
@@ -89,6 +90,7 @@ def pieces() -> dict[str, str]:
         "oil_keys": _oil_keys(),
         "gear_keys": _file_keys("mixedlub.gear.analysis.file", "GearAnalysisFile"),
         "bevel_keys": _file_keys("mixedlub.skew_gears.file", "BevelFile", OF_CASES),
+        "worm_keys": _file_keys("mixedlub.worm_gears.file", "WormFile", OF_CASES),
         "efficiency_keys": _file_keys("mixedlub.efficiency.file", "EfficiencyFile"),
         "part_laws": _part_laws(),
         "presets": _presets(),

@@ -21,9 +21,9 @@ NAME = "new"
 EXAMPLE = "mixedlub new study --out out/my_study"
 
 STUDY, FACTORS, CASE, EHL, GEAR, EFFICIENCY = "study", "factors", "case", "ehl", "gear", "efficiency"
-BEVEL = "bevel"
+BEVEL, WORM = "bevel", "worm"
 FRICTION_LAWS, TABLE, LAW = "friction-laws", "table", "law"
-TEMPLATES = (STUDY, FACTORS, CASE, TABLE, EHL, GEAR, BEVEL, EFFICIENCY, FRICTION_LAWS, LAW)
+TEMPLATES = (STUDY, FACTORS, CASE, TABLE, EHL, GEAR, BEVEL, WORM, EFFICIENCY, FRICTION_LAWS, LAW)
 KIND = "gear_pair"
 """Default kind of a case."""
 ROWS = 40
@@ -45,7 +45,7 @@ def command(
         str,
         typer.Argument(
             metavar="WHAT",
-            help="study, factors, case, table (a case with your own simulation), ehl, gear, bevel, efficiency, "
+            help="study, factors, case, table (a case with your own simulation), ehl, gear, bevel, worm, efficiency, "
             "friction-laws, law, or a method of `mixedlub evaluate`.",
         ),
     ],
@@ -78,6 +78,7 @@ def command(
         EHL: ehl_files,
         GEAR: gear_files,
         BEVEL: bevel_files,
+        WORM: worm_files,
         EFFICIENCY: efficiency_files,
         FRICTION_LAWS: friction_law_files,
         LAW: law_files,
@@ -99,6 +100,7 @@ def command(
         EHL: (folder / "contacts.toml", ("ehl",)),
         GEAR: (folder / "gear.toml", ("gear",)),
         BEVEL: (folder / "bevel.toml", ("bevel",)),
+        WORM: (folder / "worm.toml", ("worm",)),
         EFFICIENCY: (folder / "efficiency.toml", ("efficiency",)),
         FRICTION_LAWS: (
             folder / "study.toml",
@@ -180,6 +182,13 @@ def bevel_files() -> dict[str, str]:
     from mixedlub.skew_gears import EXAMPLE
 
     return {"bevel.toml": EXAMPLE.read_text(encoding="utf-8")}
+
+
+def worm_files() -> dict[str, str]:
+    """A file of a worm drive."""
+    from mixedlub.worm_gears import EXAMPLE
+
+    return {"worm.toml": EXAMPLE.read_text(encoding="utf-8")}
 
 
 def efficiency_files() -> dict[str, str]:

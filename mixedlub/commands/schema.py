@@ -18,8 +18,8 @@ def command(
         str,
         typer.Argument(
             metavar="KIND",
-            help="A kind of case, a file (`study`, `factors`, `gear`, `bevel`, `efficiency`, `ehl`, `law`), or a "
-            "method of `evaluate`.",
+            help="A kind of case, a file (`study`, `factors`, `gear`, `bevel`, `worm`, `efficiency`, `ehl`, `law`), "
+            "or a method of `evaluate`.",
         ),
     ],
     out: Annotated[Path | None, typer.Option(metavar="FILE", help="File to write; printed when left out.")] = None,

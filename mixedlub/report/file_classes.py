@@ -13,6 +13,7 @@ _CLASSES = {
     "factors": "mixedlub.study.factor_file:FactorFile",
     "gear": "mixedlub.gear.analysis.file:GearAnalysisFile",
     "bevel": "mixedlub.skew_gears.file:BevelFile",
+    "worm": "mixedlub.worm_gears.file:WormFile",
     "efficiency": "mixedlub.efficiency.file:EfficiencyFile",
     "ehl": "mixedlub.ehl.file:EhlFile",
     "law": "mixedlub.own_laws.file:LawFile",

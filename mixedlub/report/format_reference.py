@@ -51,7 +51,9 @@ def kinds_text(name: str | None = None) -> str:
     taken = {*EVERY_CASE, *(section for k in chosen for section in (*k.sections, *k.uses))}
     lines = [] if name else [f"{len(KINDS)} kinds of case. `mixedlub kinds KIND` shows one, with the keys it takes;"]
     lines += (
-        [] if name else ["Files: `mixedlub kinds study`, `factors`, `gear`, `bevel`, `efficiency`, `ehl`,", "`law`."]
+        []
+        if name
+        else ["Files: `mixedlub kinds study`, `factors`, `gear`, `bevel`, `worm`, `efficiency`,", "`ehl`, `law`."]
     )
     for k in chosen:
         lines += ["", *_kind(k)]

@@ -10,7 +10,7 @@ import numpy as np
 from mixedlub.validation.battery import drawn_rigs, shuffled
 from mixedlub.validation.planted import MEASUREMENT
 from mixedlub.validation.rig import Form
-from mixedlub.validation.rigs import KINDS
+from mixedlub.validation.rigs import CONTACTS, OTHERS
 from mixedlub.validation.sample_case import Order
 from profiles.errors import InputError
 
@@ -33,7 +33,7 @@ class Listed:
         return tuple(kind for kind, form in self.on.items() if form.within)
 
 
-def every_form(kinds: Sequence[str] = tuple(KINDS), seed: int = 0) -> list[Listed]:
+def every_form(kinds: Sequence[str] = (*CONTACTS, *OTHERS), seed: int = 0) -> list[Listed]:
     """Forms planted on rigs of the kinds, by effect and source; forms that are only rivals are left out."""
     found: dict[tuple[str, str], dict[str, Form]] = {}
     for kind in kinds:
@@ -42,7 +42,7 @@ def every_form(kinds: Sequence[str] = tuple(KINDS), seed: int = 0) -> list[Liste
     return [Listed(effect, source, on) for (effect, source), on in sorted(found.items())]
 
 
-def plan_forms(seed: int, cases: int, kinds: Sequence[str] = tuple(KINDS)) -> list[Order]:
+def plan_forms(seed: int, cases: int, kinds: Sequence[str] = (*CONTACTS, *OTHERS)) -> list[Order]:
     """Orders of a battery of single effects that covers every form, each on one of its kinds of rig."""
     listed = every_form(kinds)
     if cases < len(listed):

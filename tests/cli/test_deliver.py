@@ -35,6 +35,7 @@ conditions = { torque_Nm = [50.5, 150], speed_rpm = [1500], oil_temperature_C = 
 TEMPLATES = {
     "gear": ("gear", "gear.toml", "summary.csv"),
     "bevel": ("bevel", "bevel.toml", "map.csv"),
+    "worm": ("worm", "worm.toml", "map.csv"),
     "efficiency": ("efficiency", "efficiency.toml", "map.csv"),
     "ehl": ("ehl", "contacts.toml", "contacts.csv"),
     "study": ("study", "study.toml", "results.csv"),

@@ -115,6 +115,7 @@ WITH_PAGES = {
     "friction-laws": "mesh.csv",
     "gear": "summary.csv",
     "bevel": "map.csv",
+    "worm": "map.csv",
     "efficiency": "map.csv",
     "ehl": "contacts.csv",
     "factors": "results.csv",

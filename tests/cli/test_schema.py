@@ -18,6 +18,7 @@ from mixedlub.commands.new import (
     gear_files,
     law_files,
     study_files,
+    worm_files,
 )
 from mixedlub.evaluate import EVALUATIONS
 from mixedlub.kinds import KINDS
@@ -30,6 +31,7 @@ MAKERS = {
     "factors": factor_files,
     "gear": gear_files,
     "bevel": bevel_files,
+    "worm": worm_files,
     "efficiency": efficiency_files,
     "ehl": ehl_files,
     "law": law_files,

@@ -38,6 +38,7 @@ ROOMS = {
             "study",
             "efficiency",
             "skew_gears",
+            "worm_gears",
             "report",
             "diagnosis",
         ),

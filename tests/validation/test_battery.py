@@ -67,7 +67,7 @@ def test_a_folder_holds_one_battery_only(battery):
         generate(battery[0].parent, seed=11, cases=8, kinds=("disc",))
 
 
-@pytest.mark.parametrize(("kinds", "fewest"), [(("gear_pair", "disc"), 5), (OTHERS, 25), (tuple(KINDS), 30)])
+@pytest.mark.parametrize(("kinds", "fewest"), [(("gear_pair", "disc"), 5), (OTHERS, 25), (tuple(KINDS), 35)])
 def test_too_few_cases_are_refused(kinds, fewest):
     with pytest.raises(InputError, match=f"at least {fewest}"):
         plan(1, fewest - 1, kinds)

@@ -12,7 +12,7 @@ import numpy as np
 
 from mixedlub.validation.planted import FORMS, MEASUREMENT
 from mixedlub.validation.rig import Rig
-from mixedlub.validation.rigs import discs, drives, films, gears, histories, tooth_contacts, viscosities
+from mixedlub.validation.rigs import discs, drives, films, gears, histories, rings, tooth_contacts, viscosities
 
 Partners = tuple[str, tuple[str, ...], float]
 """An effect, its possible partners in a pair, and the weight of such a pair."""
@@ -79,13 +79,21 @@ KINDS: dict[str, Kind] = {
     "friction_map": Kind(drives.draw, _fixed(drives.PAIRS)),
     "viscosity": Kind(viscosities.draw, _fixed(viscosities.PAIRS)),
     "mesh_friction": Kind(tooth_contacts.draw, _fixed(tooth_contacts.PAIRS)),
+    "ring_gear": Kind(rings.draw_ring, _of_other_stages(gears.NOT_HERE)),
+    "planetary": Kind(rings.draw_planetary, _of_other_stages(gears.NOT_HERE)),
 }
+"""Kinds of rig by the kind of their cases; cases of ring gears and of planetary meshes are gear pairs."""
 CLASSES = ("none", "single", "pair", "measurement", "unknown")
 CONTACTS = ("gear_pair", "disc")
-OTHERS = tuple(kind for kind in KINDS if kind not in CONTACTS)
-FAMILIES = (
-    Family(
-        CONTACTS,
+RINGS = ("ring_gear", "planetary")
+"""Kinds that are dealt only by name."""
+OTHERS = tuple(kind for kind in KINDS if kind not in (*CONTACTS, *RINGS))
+
+
+def _of_meshes(kinds: tuple[str, ...]) -> Family:
+    """Gears or discs, whose cases have shares of their own."""
+    return Family(
+        kinds,
         classes=dict(zip(CLASSES, (0.16, 0.44, 0.13, 0.11, 0.16))),
         outliers=dict(zip(CLASSES, (0.5, 0.2, 0.1, 0.2, 0.15))),
         small=0.12,
@@ -97,7 +105,11 @@ FAMILIES = (
         blocks=0.8,
         levels=3,
         ends=True,
-    ),
+    )
+
+
+FAMILIES = (
+    _of_meshes(CONTACTS),
     *(
         Family(
             (kind,),
@@ -106,6 +118,7 @@ FAMILIES = (
         )
         for kind in OTHERS
     ),
+    _of_meshes(RINGS),
 )
 
 

@@ -1,9 +1,12 @@
-"""Power loss of spur gear pairs: involute kinematics, load sharing, all pairings of surfaces at each load."""
+"""Power loss of spur gear pairs: involute kinematics, load sharing, all pairings of surfaces at each load.
+
+A ring gear has a negative number of teeth; every length is positive.
+"""
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -74,6 +77,11 @@ class Gears:
     shift: tuple[float, float] = (0.0, 0.0)
     centre: float | None = None
 
+    @property
+    def side(self) -> int:
+        """1 for an external pair, -1 for a ring gear, whose centre lies on the pinion's side of the contact."""
+        return 1 if self.teeth[1] > 0 else -1
+
 
 def involute(angle: float) -> float:
     """Involute function tan(a) - a.
@@ -90,14 +98,17 @@ def operating_angle(gears: Gears) -> float:
 
     z1, z2 = gears.teeth
     if gears.centre is not None:
-        return float(np.arccos(0.5 * gears.module * (z1 + z2) * np.cos(gears.pressure_angle) / gears.centre))
+        return float(np.arccos(0.5 * gears.module * abs(z1 + z2) * np.cos(gears.pressure_angle) / gears.centre))
     target = involute(gears.pressure_angle) + 2 * np.tan(gears.pressure_angle) * sum(gears.shift) / (z1 + z2)
     return float(brentq(lambda angle: involute(angle) - target, 1e-3, 1.2, xtol=1e-14))
 
 
 @dataclass(frozen=True)
 class ContactPath:
-    """The path of contact: distances (m) from the pinion's base tangent point, base radii, base pitch."""
+    """The path of contact: distances (m) from the pinion's base tangent point, base radii, base pitch.
+
+    ``side``: -1 if both base tangent points lie on the same side of the contact, as on a ring gear, else 1.
+    """
 
     start: float
     low_single: float
@@ -107,6 +118,16 @@ class ContactPath:
     tangent_length: float
     base_radius: tuple[float, float]
     base_pitch: float
+    side: int = 1
+
+    @property
+    def pitch_radii(self) -> float:
+        """Sum of both pitch radii (m): the centre distance of an external pair."""
+        return float(np.hypot(self.pitch, self.base_radius[0]) * (1 + self.base_radius[1] / self.base_radius[0]))
+
+    def of_wheel(self, position: np.ndarray) -> np.ndarray:
+        """Distance (m) from the wheel's base tangent point: the wheel's radius of curvature."""
+        return self.tangent_length - self.side * position
 
     @property
     def contact_ratio(self) -> float:
@@ -122,13 +143,13 @@ def path_of_contact(gears: Gears) -> ContactPath:
     >>> round(path_of_contact(fzg).contact_ratio, 3)
     1.438
     """
-    working = operating_angle(gears)
-    base = tuple(0.5 * gears.module * z * np.cos(gears.pressure_angle) for z in gears.teeth)
-    length = (base[0] + base[1]) * np.tan(working)
-    start = length - np.sqrt(gears.tip[1] ** 2 - base[1] ** 2)
+    working, side = operating_angle(gears), gears.side
+    base = tuple(0.5 * gears.module * abs(z) * np.cos(gears.pressure_angle) for z in gears.teeth)
+    length = (base[1] + side * base[0]) * np.tan(working)
+    start = side * (length - np.sqrt(gears.tip[1] ** 2 - base[1] ** 2))
     end = np.sqrt(gears.tip[0] ** 2 - base[0] ** 2)
     pitch = np.pi * gears.module * np.cos(gears.pressure_angle)
-    if not (start > 0 and end < length and pitch < end - start < 2 * pitch):
+    if not (start > 0 and side * end < length and pitch < end - start < 2 * pitch):
         raise InputError(
             "the path of contact must lie between the base tangent points, with contact ratio 1 to 2",
             where="gears",
@@ -143,6 +164,7 @@ def path_of_contact(gears: Gears) -> ContactPath:
         tangent_length=float(length),
         base_radius=(float(base[0]), float(base[1])),
         base_pitch=float(pitch),
+        side=side,
     )
 
 
@@ -155,10 +177,10 @@ def gears_of(settings: Mapping[str, Any]) -> Gears:
         teeth=tuple(table["teeth"]),
         module=1e-3 * table["normal_module_mm"],
         pressure_angle=float(np.radians(table["pressure_angle_deg"])),
-        tip=tuple(0.5e-3 * d for d in table["tip_diameter_mm"]),
+        tip=tuple(0.5e-3 * abs(d) for d in table["tip_diameter_mm"]),
         face_width=1e-3 * table["face_width_mm"],
         shift=tuple(table.get("profile_shift", (0.0, 0.0))),
-        centre=None if centre is None else 1e-3 * centre,
+        centre=None if centre is None else 1e-3 * abs(centre),
     )
 
 
@@ -204,13 +226,13 @@ def inputs_of(case: Case, points: int = FINE, positions: np.ndarray | None = Non
     position = path.start + length * (np.arange(points) + 0.5) if positions is None else positions
     torque = case.columns["torque_Nm"].astype(float)
     pinion = case.columns["speed_rpm"].astype(float)[:, None] * np.pi / 30
-    wheel = pinion * gears.teeth[0] / gears.teeth[1]
+    wheel, away = pinion * gears.teeth[0] / abs(gears.teeth[1]), path.of_wheel(position)
     return Inputs(
         oil=oil_of(case.settings),
         solid=solid_of(case.settings["gears"]),
-        radius=(position * (path.tangent_length - position) / path.tangent_length)[None, :],
+        radius=(position * away / path.tangent_length)[None, :],
         speed_1=pinion * position,
-        speed_2=wheel * (path.tangent_length - position),
+        speed_2=wheel * away,
         share_force=share_at(path, case.share, torque, position) * torque[:, None] / path.base_radius[0],
         width=gears.face_width,
         temperature=case.columns["oil_temperature_C"].astype(float),
@@ -224,10 +246,10 @@ def inputs_of(case: Case, points: int = FINE, positions: np.ndarray | None = Non
             "teeth": gears.teeth[0],
             "module": gears.module,
             "pitch_diameter": gears.module * gears.teeth[0],
-            "wheel_diameter": gears.module * gears.teeth[1],
-            "ratio": gears.teeth[0] / gears.teeth[1],
+            "wheel_diameter": gears.module * abs(gears.teeth[1]),
+            "ratio": gears.teeth[0] / abs(gears.teeth[1]),
             "base_radius": path.base_radius[0],
-            "centre": float(np.hypot(path.tangent_length, sum(path.base_radius))),
+            "centre": path.pitch_radii,
         },
         **surfaces_of(case, "pinion_surface", "gear_surface"),
     )
@@ -260,11 +282,15 @@ def rig_of(case: Case) -> Rig:
     )
 
 
-def draw_case(rng: np.random.Generator, coated: bool) -> Case:
+def draw_case(rng: np.random.Generator, coated: bool, pairs_of_gears: Sequence[Mapping[str, Any]] = GEARS) -> Case:
     """A gear pair and its programme: every pairing, torque, speed and temperature once, in random order."""
-    chosen = dict(GEARS[int(rng.integers(len(GEARS)))])
+    chosen = dict(pairs_of_gears[int(rng.integers(len(pairs_of_gears)))])
     torque_range, speed_range = chosen.pop("torques"), chosen.pop("speeds")
-    chosen["tip_diameter_mm"] = [rounded(d * (1 - rng.uniform(0, 0.004)), 5) for d in chosen["tip_diameter_mm"]]
+    # Shorter teeth; those of a ring point inwards.
+    chosen["tip_diameter_mm"] = [
+        rounded(d * (1 - np.sign(z) * rng.uniform(0, 0.004)), 5)
+        for z, d in zip(chosen["teeth"], chosen["tip_diameter_mm"])
+    ]
     surfaces = draw_surfaces(rng, coated)
     sizes = [(4, 3, 6, 2), (3, 3, 6, 3), (3, 4, 5, 3), (4, 3, 4, 3), (5, 3, 5, 2), (4, 4, 5, 2)]
     pairs, torques, speeds, temperatures = sizes[int(rng.integers(len(sizes)))]
