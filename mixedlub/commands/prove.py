@@ -16,6 +16,7 @@ EXAMPLE = "mixedlub prove --out out/prove"
 
 FULL, QUICK = 240, 24
 RIGS, RIGS_QUICK = 200, 25
+SOLVED, SOLVED_QUICK = 60, 12
 
 
 def command(
@@ -43,6 +44,10 @@ def command(
         typer.Option(
             "--forms", help="Single effects alone, every published form of each in turn, on rigs of all kinds."
         ),
+    ] = False,
+    solved: Annotated[
+        bool,
+        typer.Option("--solved", help="Gears and discs with film and friction of full solutions by an own solver."),
     ] = False,
     real: Annotated[
         Path | None,
@@ -72,7 +77,7 @@ def command(
         typer.Option(
             metavar="N",
             min=5,
-            help=f"How many cases to deal; default {FULL}, with --rigs {RIGS}, with --forms one a form.",
+            help=f"How many cases to deal; default {FULL}, with --rigs {RIGS}, --solved {SOLVED}, --forms one a form.",
         ),
     ] = None,
     export: Annotated[
@@ -100,17 +105,20 @@ def command(
     from mixedlub.validation.poor import plan_poor
     from mixedlub.validation.real import judge
     from mixedlub.validation.rigs import CONTACTS, OTHERS
+    from mixedlub.validation.solved.deal import plan_solved
     from mixedlub.validation.worlds.deal import plan_worlds, worlds_of
 
     if export is not None and (real is not None or loop is not None or out is not None):
         taken = "--out" if out is not None else "--real" if real is not None else "--loop"
         raise InputError(f"exports dealt batteries into its own folder: leave out {taken}", where="--export")
-    if (real is not None or loop is not None) and (rigs or worlds or poor or forms):
+    if (real is not None or loop is not None) and (rigs or worlds or poor or forms or solved):
         raise InputError("is a battery of its own", where="--real" if real is not None else "--loop")
     if worlds and poor:
         raise InputError("is dealt of rigs that follow the base laws: leave out --worlds", where="--poor")
     if forms and (worlds or poor):
         raise InputError("is dealt of good recordings of rigs that follow the base laws", where="--forms")
+    if solved and (rigs or worlds or poor or forms):
+        raise InputError("is a battery of its own", where="--solved")
     if loop is not None:
         echo(
             _loop(
@@ -121,13 +129,14 @@ def command(
     every = worlds_of((*CONTACTS, *OTHERS)) if worlds and not rigs else worlds_of(OTHERS) if worlds else ()
     every = (*CONTACTS, *OTHERS) if (poor or forms) and not rigs else every
     chosen = _chosen(kinds) if kinds else every or (OTHERS if rigs else CONTACTS)
-    contacts = set(chosen) <= set(CONTACTS) and not (worlds or poor or forms)
+    contacts = set(chosen) <= set(CONTACTS) and not (worlds or poor or forms or solved)
     least = len(every_form(chosen)) if forms else fewest(chosen) * (2 if poor else 1)
     default = (QUICK if contacts else RIGS_QUICK) if quick else (FULL if contacts or worlds or poor else RIGS)
+    default = (SOLVED_QUICK if quick else SOLVED) if solved else default
     default = least if forms else max(default, least)
     prefix = "" if chosen in (CONTACTS, every) else "rigs_" if chosen == OTHERS else f"{'_'.join(chosen)}_"
-    dealing = "worlds_" if worlds else "poor_" if poor else "forms_" if forms else ""
-    planner = plan_worlds if worlds else plan_poor if poor else plan_forms if forms else plan
+    dealing = "worlds_" if worlds else "poor_" if poor else "forms_" if forms else "solved_" if solved else ""
+    planner = plan_worlds if worlds else plan_poor if poor else plan_forms if forms else plan_solved if solved else plan
     if export is not None:
         _export(export, cases or default, seed, chosen, jobs, not quick, planner)
         return

@@ -24,7 +24,8 @@ class Truth:
     ``within``: the catalogue's laws can become the planted laws; None if nothing is planted. ``forms``: sources of the
     planted forms. ``laws``: steps with another law; ``clear_laws``: steps that recalibration cannot hide, alone or with
     the others; ``sole_laws``: clear steps without imitation by a law of another step. ``flaws``: defects of the
-    recording.
+    recording. ``beside``: effects that what is concealed brings along. ``solved``: what a rig of full physics conceals;
+    ``full_base``: its case has full solutions as base.
     """
 
     case: str
@@ -51,6 +52,9 @@ class Truth:
     clear_laws: frozenset[str] = frozenset()
     sole_laws: frozenset[str] = frozenset()
     flaws: frozenset[str] = frozenset()
+    beside: frozenset[str] = frozenset()
+    solved: str = ""
+    full_base: bool = False
 
     @property
     def candidates(self) -> frozenset[str]:
@@ -140,6 +144,9 @@ def read_truth(folder: Path) -> Truth:
         clear_laws=clear,
         sole_laws=sole,
         flaws=frozenset(truth.get("flaws", ())),
+        beside=frozenset(truth.get("beside", ())),
+        solved=str(truth.get("solved", "")),
+        full_base=bool(truth.get("full_base", False)),
     )
 
 

@@ -22,11 +22,13 @@ class Law:
     """A law of shear: stress from viscosity times shear rate, and the reverse, at a pressure (Pa).
 
     ``limit``: limiting stress of the slip over its pressure, infinite without; the flow by pressure does not know it.
+    ``name``: for the truth of a case.
     """
 
     stress: Shear
     rate: Shear
     limit: float = np.inf
+    name: str = ""
 
     def limited(self, stress: np.ndarray, pressure: np.ndarray) -> np.ndarray:
         """Stress of the slip below the limit: t/[1 + (t/t_L)^4]^(1/4)."""
@@ -40,7 +42,7 @@ def newton() -> Law:
     return Law(lambda rate, pressure: rate, lambda stress, pressure: stress)
 
 
-def eyring(scale: Callable[[np.ndarray], np.ndarray] | float) -> Law:
+def eyring(scale: Callable[[np.ndarray], np.ndarray] | float, name: str = "Eyring") -> Law:
     """Ree and Eyring's stress s asinh(eta g/s), with a scale s (Pa) that may depend on the pressure."""
 
     def of(pressure: np.ndarray) -> np.ndarray:
@@ -50,7 +52,7 @@ def eyring(scale: Callable[[np.ndarray], np.ndarray] | float) -> Law:
         s = of(pressure)
         return np.asarray(s * np.sinh(np.clip(stress / s, -FULL_SHEAR, FULL_SHEAR)))
 
-    return Law(lambda rate, pressure: of(pressure) * np.arcsinh(rate / of(pressure)), rate)
+    return Law(lambda rate, pressure: of(pressure) * np.arcsinh(rate / of(pressure)), rate, name=name)
 
 
 def carreau(scale: float, index: float) -> Law:
@@ -74,7 +76,7 @@ def carreau(scale: float, index: float) -> Law:
             found = found - (found + power * np.log1p(square) - np.log(size)) / slope
         return np.asarray(np.sign(rate_) * np.exp(found))
 
-    return Law(stress, rate)
+    return Law(stress, rate, name="Carreau")
 
 
 def limited(law: Law, share: float) -> Law:
