@@ -14,7 +14,7 @@ LOSSES = frozenset({"windage", "bearing_drag"})
 def _counts(
     group: str, kind: str = "", full: bool | None = None, loss: bool = False
 ) -> Callable[[Truth, Answer], bool]:
-    """Cases of a class, of a kind of rig, with or without full solutions as base, with a loss beside the mesh or not."""
+    """Cases of a class and kind, with or without full solutions as base, with a loss beside the mesh or not."""
     return lambda truth, answer: (
         truth.group == group
         and kind in ("", truth.kind)
@@ -39,9 +39,12 @@ def _any(truth: Truth, answer: Answer) -> bool:
 
 _OWN = (
     _share("tied_discs", "discs: what is concealed, right or tied", _counts("single", "disc"), tied, at_least(0.85)),
-    _share("tied_gears", "gears: what is concealed, right or tied", _counts("single", "gear_pair"), tied, at_least(0.80)),
-    _share("tied_losses", "gears: a loss beside the mesh, right or tied", _counts("single", "gear_pair", loss=True), tied, at_least(0.85)),
-    _share("none", "nothing missing, or another rheology or balance: none, or laws", _counts("none"), right, at_least(0.90)),
+    _share("tied_gears", "gears: what is concealed, right or tied", _counts("single", "gear_pair"), tied,
+           at_least(0.80)),
+    _share("tied_losses", "gears: a loss beside the mesh, right or tied",
+           _counts("single", "gear_pair", loss=True), tied, at_least(0.85)),
+    _share("none", "no effect, maybe another rheology or balance: none or laws", _counts("none"), right,
+           at_least(0.90)),
     _share("none_formulas", "  the formulas as base", _counts("none", full=False), right),
     _share("none_full", "  full solutions as base", _counts("none", full=True), right),
     _share("unknown_false", "  unknown above 0.5", _counts("none"), unknown_suspected),

@@ -25,7 +25,7 @@ class Flow:
 
     ``stress``: shear stress of the slip (Pa), and ``softness``, its derivative by the logarithm of viscosity.
     ``mobility``: flow against the gradient over it (m4/(N s)), with its exponents in viscosity, film and gradient.
-    ``lost``: flow lost to unequal fluidity across the film, over the film (m/s). ``rates``: shares of layers in the slip.
+    ``lost``: flow lost to unequal fluidity across the film, over it (m/s). ``rates``: shares of layers in the slip.
     """
 
     stress: np.ndarray
