@@ -14,7 +14,7 @@ from mixedlub.validation.solved.mesh import CELLS
 from mixedlub.validation.solved.solver import Place, Solution, solve
 from profiles.errors import InputError
 
-SLIPS, LOADS, SPEEDS = 4, 3, 3
+SLIPS, LOADS, SPEEDS = 4, 3, 5
 """Nodes along each condition: left-out solutions within 1 % in film and 2 % in stress (test_solved_world.py)."""
 LEAST_SLIP, MOST_SLIP = 0.015, 1.9
 """Slide-to-roll ratios that are solved; below, friction is linear in the ratio."""
