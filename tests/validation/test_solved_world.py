@@ -14,7 +14,7 @@ from mixedlub.validation.solved import table as tables
 from mixedlub.validation.solved.deal import plan_solved
 from mixedlub.validation.solved.solver import Place
 from mixedlub.validation.solved.table import Physics, Table, between, grid_of, ratios, shares, slip_of
-from mixedlub.validation.solved.world import SWITCHES, laws_of, switched
+from mixedlub.validation.solved.world import SWITCHES, draw, laws_of, switched
 from profiles.errors import InputError
 
 
@@ -91,6 +91,28 @@ def test_a_rig_follows_its_solutions_and_what_is_switched_on(disc):
     assert warm.film == pytest.approx(0.6 * formula.film)
     thinner = replace(formula, film=0.6 * formula.film)
     assert warm.stress == pytest.approx(0.4 * shear(thinner).stress)
+
+
+@pytest.mark.parametrize(
+    ("kind", "switch", "lowered"),
+    [("disc", "starved", "film"), ("disc", "limited", "stress"), ("disc", "rheology", ""), ("disc", "balance", ""),
+     ("gear_pair", "windage", "")],
+)  # fmt: skip
+def test_each_switch_changes_the_readings_of_a_rig(monkeypatch, kind, switch, lowered):
+    """On tables of two nodes a condition."""
+    for name in ("SLIPS", "LOADS", "SPEEDS", "LOADS_OF_TEETH"):
+        monkeypatch.setattr(tables, name, 2)
+    rig, world, forms, z = draw(np.random.default_rng(2), kind, switch, full_base=False)
+    assert {FILM, SHEAR} <= {one.law.id for one in world}
+    assert [form.id for form in forms] == [name for name in (SWITCHES[switch].effect,) if name]
+    plain = rig.records(z, ())
+    seen = rig.records(z, [form.hide({k.name: 0.5 * sum(k.typical) for k in form.knobs}) for form in forms])
+    assert np.all(np.isfinite(seen))
+    assert np.max(np.abs(seen / plain - 1)) > 0.02 or not forms
+    formula = rig.model(z, ())
+    assert np.max(np.abs(plain / formula - 1)) > 0.02
+    if lowered == "stress":
+        assert np.all(seen <= plain * (1 + 1e-9))
 
 
 def test_every_case_conceals_one_thing_and_none_of_the_full_base():
