@@ -15,7 +15,8 @@ EXAMPLE = "mixedlub prove --out out/prove"
 
 
 FULL, QUICK = 240, 10
-RIGS, RIGS_QUICK, OUTSIDE = 200, 25, 100
+RIGS, RIGS_QUICK = 200, 25
+OUTSIDE, SOLVED, SOLVED_QUICK = 100, 60, 12
 
 
 def command(
@@ -48,6 +49,10 @@ def command(
         bool,
         typer.Option("--outside", help="Physics outside the catalogue: is it said, and is its law found?"),
     ] = False,
+    solved: Annotated[
+        bool,
+        typer.Option("--solved", help="Gears and discs with film and friction of full solutions by an own solver."),
+    ] = False,
     real: Annotated[
         Path | None,
         typer.Option(
@@ -76,8 +81,8 @@ def command(
         typer.Option(
             metavar="N",
             min=5,
-            help=f"How many cases to deal; default {FULL}, with --rigs {RIGS}, with --outside {OUTSIDE}, "
-            "with --forms one a form.",
+            help=f"How many cases to deal; default {FULL}, with --rigs {RIGS}, --outside {OUTSIDE}, --solved {SOLVED}, "
+            "--forms one a form.",
         ),
     ] = None,
     export: Annotated[
@@ -107,19 +112,31 @@ def command(
     from mixedlub.validation.poor import plan_poor
     from mixedlub.validation.real import judge
     from mixedlub.validation.rigs import CONTACTS, OTHERS
+    from mixedlub.validation.solved.deal import plan_solved
     from mixedlub.validation.worlds.deal import plan_worlds, worlds_of
 
+    planners = {
+        "": plan,
+        "worlds": plan_worlds,
+        "poor": plan_poor,
+        "forms": plan_forms,
+        "outside": plan_outside,
+        "solved": plan_solved,
+    }
+    asked = {"worlds": worlds, "poor": poor, "forms": forms, "outside": outside, "solved": solved}
+    dealing = next((name for name, wanted in asked.items() if wanted), "")
+    planner = planners[dealing]
     if export is not None and (real is not None or loop is not None or out is not None):
         taken = "--out" if out is not None else "--real" if real is not None else "--loop"
         raise InputError(f"exports dealt batteries into its own folder: leave out {taken}", where="--export")
-    if (real is not None or loop is not None) and (rigs or worlds or poor or forms or outside):
+    if (real is not None or loop is not None) and (rigs or dealing):
         raise InputError("is a battery of its own", where="--real" if real is not None else "--loop")
     if worlds and poor:
         raise InputError("is dealt of rigs that follow the base laws: leave out --worlds", where="--poor")
     if forms and (worlds or poor):
         raise InputError("is dealt of good recordings of rigs that follow the base laws", where="--forms")
-    if outside and (rigs or worlds or poor or forms):
-        raise InputError("is dealt of good recordings of rigs that follow the base laws", where="--outside")
+    if (outside or solved) and (rigs or worlds or poor or forms or (outside and solved)):
+        raise InputError("is a battery of its own", where="--outside" if outside else "--solved")
     if loop is not None:
         echo(
             _loop(
@@ -131,19 +148,21 @@ def command(
     every = (*CONTACTS, *OTHERS) if (poor or forms) and not rigs else every
     every = UNLISTED if outside else every
     chosen = _chosen(kinds) if kinds else every or (OTHERS if rigs else CONTACTS)
-    contacts = set(chosen) <= set(CONTACTS) and not (worlds or poor or forms or outside)
+    contacts = set(chosen) <= set(CONTACTS) and not dealing
     least = len(every_form(chosen)) if forms else 5 if outside else fewest(chosen) * (2 if poor else 1)
-    default = (QUICK if contacts else RIGS_QUICK) if quick else (FULL if contacts or worlds or poor else RIGS)
-    default = least if forms else (QUICK if quick else OUTSIDE) if outside else max(default, least)
+    full = FULL if contacts or worlds or poor else RIGS
+    most = {"forms": least, "outside": OUTSIDE, "solved": SOLVED}.get(dealing, full)
+    few = {"forms": least, "solved": SOLVED_QUICK}.get(dealing, QUICK if contacts or outside else RIGS_QUICK)
+    default = max(few if quick else most, least)
     prefix = "" if chosen in (CONTACTS, every) else "rigs_" if chosen == OTHERS else f"{'_'.join(chosen)}_"
-    dealing = "worlds_" if worlds else "poor_" if poor else "forms_" if forms else "outside_" if outside else ""
-    planner = (
-        plan_worlds if worlds else plan_poor if poor else plan_forms if forms else plan_outside if outside else plan
-    )
     if export is not None:
         _export(export, cases or default, seed, chosen, jobs, not quick, planner)
         return
-    name = f"real_{split}" if real is not None else dealing + prefix + ("quick" if quick else "battery")
+    name = (
+        f"real_{split}"
+        if real is not None
+        else f"{dealing}_" * bool(dealing) + prefix + ("quick" if quick else "battery")
+    )
     folder = output_folder(out, NAME, name)
     with Progress(console=Console(stderr=True)) as bar:
         tasks = {}

@@ -24,7 +24,8 @@ class Truth:
     ``within``: the catalogue's laws can become the planted laws; None if nothing is planted. ``forms``: sources of the
     planted forms. ``laws``: steps with another law; ``clear_laws``: steps that recalibration cannot hide, alone or with
     the others; ``sole_laws``: clear steps without imitation by a law of another step. ``flaws``: defects of the
-    recording. ``beyond``: conditions beyond the recorded range.
+    recording. ``beyond``: conditions beyond the recorded range. ``beside``: effects that come with the concealed one.
+    ``solved``: the concealed part of a rig of full physics; ``full_base``: its case has full solutions as base.
     """
 
     case: str
@@ -52,6 +53,9 @@ class Truth:
     sole_laws: frozenset[str] = frozenset()
     flaws: frozenset[str] = frozenset()
     beyond: np.ndarray = field(default_factory=lambda: np.zeros(0, bool))
+    beside: frozenset[str] = frozenset()
+    solved: str = ""
+    full_base: bool = False
 
     @property
     def candidates(self) -> frozenset[str]:
@@ -146,6 +150,9 @@ def read_truth(folder: Path) -> Truth:
         sole_laws=sole,
         flaws=frozenset(truth.get("flaws", ())),
         beyond=np.array(rows.get("beyond", np.zeros(rows["run"].size)), bool),
+        beside=frozenset(truth.get("beside", ())),
+        solved=str(truth.get("solved", "")),
+        full_base=bool(truth.get("full_base", False)),
     )
 
 

@@ -20,6 +20,7 @@ from mixedlub.validation.rig import Case, Rig
 from mixedlub.validation.rigs import CLASSES, CONTACTS, FAMILIES, KINDS, Family, Partners, family_of
 from mixedlub.validation.rivals import Target, best, rivals
 from mixedlub.validation.sample_case import HEAVY, LASTING, SD_ESTIMATED, Order, Sample, sample_case
+from mixedlub.validation.solved.world import SWITCHES
 from mixedlub.validation.worlds.misfit import told
 from profiles.errors import InputError
 
@@ -260,6 +261,7 @@ def truth_of(order: Order, sample: Sample, outliers: Sequence[int]) -> dict[str,
         "level": order.level if order.effects else "none",
         "small": order.small,
         **({"flaws": list(order.flaws)} if order.flaws else {}),
+        **(_of_full_physics(order) if order.solved else {}),
         "mimic": bool(set(order.effects) & MIMICS),
         "unnamed_oil": order.no_data_sheet,
         "theta": rig.theta(z),
@@ -295,6 +297,12 @@ def beyond(columns: Mapping[str, np.ndarray], hidden: np.ndarray) -> np.ndarray:
             seen = values[~hidden]
             found[(values < seen.min()) | (values > seen.max())] = 1.0
     return found
+
+
+def _of_full_physics(order: Order) -> dict[str, Any]:
+    """Entries of the truth about a rig of full physics."""
+    beside = list(SWITCHES[order.solved].beside)
+    return {"solved": order.solved, "full_base": order.full_base, "beside": beside}
 
 
 def make(seed: int, index: int, order: Order, folder: Path) -> str:

@@ -75,10 +75,10 @@ def coverage(truth: Truth, answer: Answer) -> float:
 
 
 def physics(label: frozenset[str], truth: Truth) -> frozenset[str]:
-    """Missing physics named by an explanation: without laws if the rig follows other laws."""
+    """Missing physics named by an explanation: without laws if the rig follows other laws, and what comes along."""
     if not truth.laws:
         return label
-    return label - LAWS or frozenset({"none"})
+    return label - LAWS - truth.beside if label & truth.label else label - LAWS or frozenset({"none"})
 
 
 def right(truth: Truth, answer: Answer) -> bool:
@@ -109,7 +109,7 @@ def false_law(truth: Truth, answer: Answer) -> bool:
 
 def false_physics(truth: Truth, answer: Answer) -> bool:
     """Whether an effect that is not planted has a probability of 0.9 or more."""
-    so = truth.label | LAWS | ANSWERS_WITHOUT_EFFECT
+    so = truth.label | truth.beside | LAWS | ANSWERS_WITHOUT_EFFECT
     return any(p >= 0.9 for name, p in answer.probabilities.items() if name not in so)
 
 

@@ -21,6 +21,7 @@ from mixedlub.validation.poor import POOR_FIGURES
 from mixedlub.validation.rigs import CONTACTS, KINDS
 from mixedlub.validation.sample_case import Order
 from mixedlub.validation.score import FIGURES, Score, score
+from mixedlub.validation.solved.figures import SOLVED_FIGURES
 from mixedlub.validation.tables import by_form, counts, wrong
 from mixedlub.validation.worlds.figures import WORLD_FIGURES
 from profiles.errors import InputError
@@ -170,6 +171,7 @@ def judge(out: Path, sealed: Sequence[Path], rivals: dict[str, Path] | None = No
     figures = WORLD_FIGURES if any(truth.laws for truth in truths) else FIGURES
     figures = POOR_FIGURES if any(truth.flaws for truth in truths) else figures
     figures = OUTSIDE_FIGURES if {truth.group for truth in truths} == {"unknown"} else figures
+    figures = SOLVED_FIGURES if any(truth.solved for truth in truths) else figures
     pairs, failed = _collected(out, truths)
     every_pair = [pair for some in pairs.values() for pair in some]
     unnamed = {f"{kind}, unnamed": [pair for pair in some if pair[0].no_data_sheet] for kind, some in pairs.items()}

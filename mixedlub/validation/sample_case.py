@@ -11,6 +11,7 @@ import numpy as np
 from mixedlub.validation.rig import Act, Form, Rig
 from mixedlub.validation.rigs import KINDS, Family, family_of
 from mixedlub.validation.rivals import nearest, sensitivity, visibility
+from mixedlub.validation.solved.world import draw as draw_solved
 from mixedlub.validation.worlds.catalogue import World, drawn, following
 from mixedlub.validation.worlds.misfit import CLEAR, Seen
 from profiles.errors import InputError
@@ -21,6 +22,8 @@ CLOSE_ENOUGH = 0.25
 """Logarithm of visibility over its goal below which a sample is accepted."""
 TRIES = 12
 """Number of samples; the nearest to the order is taken."""
+TRIES_IF_SOLVED = 2
+"""The same, where each sample takes hundreds of solutions."""
 TRIES_FOR_LAW = 40
 """Largest number of samples tried for a first law that deviates from the base model."""
 MOST_RIGS = 400
@@ -45,7 +48,8 @@ class Order:
 
     ``laws``: steps at which the rig follows another law; ``strong``: recalibration of the base model must not hide the
     first law. ``flaws``: defects of the recording. ``law``: name of the law of a single effect, any if empty.
-    ``beyond``: an end of a condition is withheld.
+    ``beyond``: an end of a condition is withheld. ``solved``: the concealed part of a rig of full physics, empty for
+    other rigs; ``full_base``: its case has full solutions as base.
     """
 
     name: str
@@ -61,6 +65,8 @@ class Order:
     flaws: tuple[str, ...] = ()
     law: str = ""
     beyond: bool = False
+    solved: str = ""
+    full_base: bool = False
 
     @property
     def sizes(self) -> tuple[int, int] | None:
@@ -119,7 +125,7 @@ def sample_case(rng: np.random.Generator, order: Order) -> Sample:
             continue
         if nearest_yet is None or far(sample) < far(nearest_yet):
             nearest_yet = sample
-        if far(nearest_yet) < CLOSE_ENOUGH or place + 1 >= TRIES:
+        if far(nearest_yet) < CLOSE_ENOUGH or place + 1 >= (TRIES_IF_SOLVED if order.solved else TRIES):
             return nearest_yet
     raise InputError("no rig with these effects can be read", where=order.kind, value=order.effects)
 
@@ -196,8 +202,11 @@ def withhold(
 
 def _sample(rng: np.random.Generator, order: Order, goal: float) -> Sample:
     """A rig with noise and strengths scaled for a visibility of the effects as near the goal as possible."""
-    rig, world, forms = _rig_for(rng, order)
     family = family_of(order.kind)
+    if order.solved:
+        rig, world, forms, z = draw_solved(rng, order.kind, order.solved, order.full_base)
+        return _leveled(rng, order, goal, (rig, withhold(rng, rig, family), z, forms, world))
+    rig, world, forms = _rig_for(rng, order)
     hidden = withhold(rng, rig, family, order.sizes, order.beyond)
     z = rng.standard_normal(len(rig.names))
     if not order.effects and rng.random() < family.mis_set:
@@ -206,6 +215,17 @@ def _sample(rng: np.random.Generator, order: Order, goal: float) -> Sample:
         off = rng.choice(len(z), min(2, len(z)), replace=False)
         z[off] = np.sign(z[off]) * rng.uniform(2.0, 3.0, len(off))
     z = z if rig.planted is None else nearest(rig)
+    return _leveled(rng, order, goal, (rig, hidden, z, forms, world))
+
+
+Drawn = tuple[Rig, np.ndarray, np.ndarray, tuple[Form, ...], World]
+"""Rig, withheld readings, calibration, planted effects and laws of a case."""
+
+
+def _leveled(rng: np.random.Generator, order: Order, goal: float, case: Drawn) -> Sample:
+    """A drawn case with noise and strengths that give its effects the visibility."""
+    rig, hidden, z, forms, world = case
+    family = family_of(order.kind)
     knobs = tuple(_knobs(rng, form) for form in forms)
     slopes = sensitivity(rig.nature, z)[~hidden]
     typical = float(np.quantile(np.abs(rig.records(z, ())), rig.quantile))

@@ -167,6 +167,7 @@ def test_counts_by_kind_wrong_answers_and_break_downs(named_orders, tmp_path):
         (["--rigs", "--quick"], {"cases": 25, "kinds": OTHERS, "baselines": False}),
         (["--kinds", "film,disc", "--quick"], {"cases": 25, "kinds": ("disc", "film"), "baselines": False}),
         (["--kinds", "gear_pair", "--cases", "7"], {"cases": 7, "kinds": ("gear_pair",), "baselines": True}),
+        (["--solved", "--quick"], {"cases": 12, "kinds": CONTACTS, "baselines": False, "dealt": "plan_solved"}),
         (["--worlds"], {"cases": 240, "kinds": WORLDS, "baselines": False, "dealt": "plan_worlds"}),
         (["--worlds", "--quick"], {"cases": 25, "kinds": WORLDS, "baselines": False, "dealt": "plan_worlds"}),
         (
@@ -199,6 +200,13 @@ def test_a_kind_without_other_laws_is_refused(tmp_path, capsys):
     said = capsys.readouterr().err
     assert "friction_map" in said
     assert "no other law" in said
+
+
+def test_full_physics_is_a_battery_of_gears_and_discs(tmp_path, capsys):
+    assert main(["prove", "--solved", "--kinds", "film", "--out", str(tmp_path / "out")]) == 2
+    assert "gear_pair and disc alone" in capsys.readouterr().err
+    assert main(["prove", "--solved", "--poor", "--out", str(tmp_path / "out")]) == 2
+    assert "--solved: is a battery of its own" in capsys.readouterr().err
 
 
 def test_a_kind_that_no_battery_has_is_named_with_those_that_there_are(tmp_path, capsys):
