@@ -90,13 +90,10 @@ class Coordinate:
         return np.exp(-((beyond / LOST_AFTER) ** 2))
 
     def about(self, values: np.ndarray, at: float, width: float) -> np.ndarray:
-        """Bell of ``width`` (share of the range) about a value, or a step there for zero width.
-
-        A condition with both signs has one on either side, and half the range is on each.
-        """
+        """Bell of ``width`` (share of the range) about a value, or a step there for zero width. A condition with both
+        signs has one on either side."""
         x = self.scale(values)
         sides = (1.0, -1.0) if self.symmetric_log and at else (1.0,)
-        width = 0.5 * width if self.symmetric_log else width
         off = [side * (x - self.scale(np.array(side * at))) for side in sides]
         return np.column_stack([np.exp(-0.5 * (d / width) ** 2) if width else (d >= 0.0).astype(float) for d in off])
 
