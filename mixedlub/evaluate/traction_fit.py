@@ -194,7 +194,7 @@ def _forward(case: Case) -> Forward:
 
 def _table(problem: _Problem, z: np.ndarray, sds: np.ndarray, nominal: float) -> pd.DataFrame:
     """Parameters of the part with 90 % intervals."""
-    rows = []
+    rows: list[dict[str, Any]] = []
     for p, at, sd in zip(problem.free, z, sds, strict=True):
         if p.name not in KEYS:
             continue
