@@ -49,8 +49,8 @@ class Thermal(Section):
     oil_flow: OilFlow | None = key("oil that circulates through a tank", None)
     teeth_W_K: dict[str, Positive] = key(
         "STAGE = VALUE: conductance from the teeth of a stage of one gear pair to the oil; its film is then that of "
-        "oil at the temperature of the teeth. Left out: the film has the sump's temperature, and the teeth are reported by "
-        "ISO/TR 15144-1",
+        "oil at the temperature of the teeth. Left out: the film has the sump's temperature, and the teeth are "
+        "reported by ISO/TR 15144-1",
         {},
         example={"first": 120.0},
     )

@@ -204,7 +204,8 @@ def _table(problem: _Problem, z: np.ndarray, sds: np.ndarray, nominal: float) ->
         unit = {STRESS: "MPa", "fall": "1/K"}.get(p.name.rpartition(".")[2], "-")
         rows.append({**row, "low90": low, "high90": high, "unit": unit, "told": "yes" if sd < TOLD else "no"})
     order = list(KEYS.values())
-    return pd.DataFrame(sorted(rows, key=lambda row: order.index(row["parameter"])))
+    rows.sort(key=lambda one: order.index(str(one["parameter"])))
+    return pd.DataFrame(rows)
 
 
 def _findings(table: pd.DataFrame, case: Case, chi2: float, *, told_limit: bool) -> Iterator[Finding]:

@@ -6,15 +6,18 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.optimize import brentq
 
+import mixedlub as ml
+from mixedlub.cli import main
 from mixedlub.efficiency import Gearbox
 from mixedlub.efficiency.heat_paths import HeatPaths
 from mixedlub.efficiency.thermal import ThermalModel
 from mixedlub.efficiency.thermal_cycle import HOUR, cycle
 from mixedlub.efficiency.thermal_file import Thermal
-from mixedlub.efficiency.thermal_table import thermal_tables
+from mixedlub.efficiency.thermal_table import TABLES, thermal_tables
 from mixedlub.schema.toml_file import parse
 from profiles.errors import InputError
 from tests.efficiency.gearboxes import PARTS, STAGE, gearbox
@@ -132,6 +135,19 @@ def test_repeated_cycle_closes_and_keeps_no_heat(tmp_path: Path) -> None:
     assert duty["removed_energy_kWh"].sum() == pytest.approx(duty["loss_energy_kWh"].sum(), rel=1e-4)
     balance = duty["loss_energy_kWh"] - duty["removed_energy_kWh"] - duty["stored_energy_kWh"]
     assert np.abs(balance).max() < 1e-6 * duty["loss_energy_kWh"].sum()
+
+
+def test_python_and_command_give_the_same_temperatures(tmp_path: Path) -> None:
+    gearbox(tmp_path, FIXED, conditions=LEVELS, thermal=THERMAL)
+    path = str(tmp_path / "efficiency.toml")
+    found = ml.gearbox_efficiency(path)
+    assert main(["efficiency", path, "--out", str(tmp_path / "out")]) == 0
+    table = pd.read_csv(tmp_path / "out" / "thermal.csv")
+    assert found["sump_temperature_C"].to_numpy().ravel() == pytest.approx(table["sump_temperature_C"])
+    assert list(table["balance"].unique()) == ["converged"]
+    declared = {one.name for one in TABLES["thermal"]} - {"STAGE_tooth_temperature_C", "WAY_heat_W"}
+    assert declared <= set(table)
+    assert (tmp_path / "out" / "figures" / "thermal.svg").stat().st_size > 2000
 
 
 @pytest.mark.parametrize(
