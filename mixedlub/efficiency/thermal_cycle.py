@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,6 +22,8 @@ SAME = 1e-3
 TOLERANCE = 1e-10
 """Grid. Relative tolerance of the integration over time."""
 HOUR = 3600.0
+Losses = Callable[[np.ndarray], np.ndarray]
+"""Losses (W) of an operating point over the sump temperature (K)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +110,7 @@ def cycle(model: ThermalModel, torque: np.ndarray, speed: np.ndarray, seconds: n
 
 
 def _once(
-    model: ThermalModel, losses: list, seconds: np.ndarray, start: float, capacity: float
+    model: ThermalModel, losses: list[Losses], seconds: np.ndarray, start: float, capacity: float
 ) -> list[tuple[np.ndarray, float, float, np.ndarray]]:
     """Temperatures, heat in and heat out (J), and times (s) of every point of a cycle."""
     from scipy.integrate import solve_ivp
@@ -117,7 +119,7 @@ def _once(
     rows, at = [], start
     for loss, duration in zip(losses, seconds, strict=True):
 
-        def slopes(_: float, state: np.ndarray, loss=loss) -> list[float]:
+        def slopes(_: float, state: np.ndarray, loss: Losses = loss) -> list[float]:
             given = float(loss(np.clip(state[0], low, high)))
             taken = float(model.paths.total(np.array(state[0])))
             return [(given - taken) / capacity, given / capacity, taken / capacity]

@@ -165,6 +165,18 @@ def test_solver_shears_as_the_effects_of_the_chain():
             assert slopes[number] == pytest.approx(numeric, rel=1e-5)
 
 
+def test_a_part_without_pressure_and_temperature_is_the_constant_stress():
+    from mixedlub.ehl.oil.lubricant import from_lubricant
+    from mixedlub.rig.build import lubricant
+
+    flat = {"eyring_stress_MPa": {"value": 5.0}, **RANGES}
+    sections = {**OIL, "traction": flat}, {**OIL, "eyring_stress_MPa": 5.0}
+    part, constant = (from_lubricant(lubricant(parse(Lubricant, one, "x"))) for one in sections)
+    stress, pressure, kelvin = np.array([-3e7, 1e5, 2e7]), np.array([0.0, 5e8, 1.5e9]), np.array([310.0, 350.0, 400.0])
+    for own, other in zip(part.sheared(stress, pressure, kelvin), constant.sheared(stress, pressure, kelvin)):
+        assert own == pytest.approx(other, rel=1e-12)
+
+
 STUDY = """schema = "mixedlub-study/1"
 boundary_friction = 0.1
 [gears]
