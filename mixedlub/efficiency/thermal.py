@@ -16,8 +16,10 @@ from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.schema.findings import Finding, finding
 from profiles.errors import InputError
 
-CLOSED = 1e-7
-"""Grid. Largest difference between heat in and heat out, over the heat, of a balance that counts as found."""
+CLOSED, BALANCED = 1e-7, 1e-6
+"""Grid. Largest difference between heat in and heat out, over the heat, that ends the search, and of a balance."""
+NARROW = 1e-9
+"""Grid. Width (K) of a bracket that is not narrowed any more."""
 STEPS = 60
 """Cost limit. Most evaluations of the losses for a balance; a dozen are usual."""
 TEETH_STEPS, TEETH_CLOSED = 30, 1e-8
@@ -30,14 +32,19 @@ class Balance:
     """Steady temperatures of N conditions, in K and W.
 
     ``sump``: temperature of the oil, the highest allowed where no balance exists below it; ``losses``: losses at these
-    temperatures; ``rise``: of the teeth over the sump by stage; ``found``: conditions in balance.
+    temperatures; ``rise``: of the teeth over the sump by stage; ``too_hot``: conditions without a balance.
     """
 
     paths: HeatPaths
     sump: np.ndarray
     losses: Losses
     rise: Mapping[str, np.ndarray]
-    found: np.ndarray
+    too_hot: np.ndarray
+
+    @property
+    def found(self) -> np.ndarray:
+        """Conditions in balance."""
+        return ~self.too_hot & (np.abs(self.gap) <= BALANCED)
 
     @cached_property
     def heat(self) -> Mapping[str, np.ndarray]:
@@ -65,11 +72,6 @@ class Balance:
                 f"{loose} of {of} conditions did not converge: heat in and heat out differ by up to {most:.1g}"
             )
         return tuple(finding("thermal_no_balance", text, WHERE) for text in texts)
-
-    @property
-    def too_hot(self) -> np.ndarray:
-        """Conditions with more losses than heat out at the highest temperature."""
-        return ~self.found & (self.sump >= self.paths.section.highest_temperature_C + ZERO_CELSIUS)
 
 
 class ThermalModel:
@@ -146,10 +148,9 @@ class ThermalModel:
             above[live] = np.where(left, np.where(side[live] > 0.0, 0.5 * fb, fb), own)
             low[live], high[live] = np.where(left, middle, a), np.where(left, b, middle)
             side[live] = np.where(left, 1.0, -1.0)
-            live = live[np.abs(own) > CLOSED * loss]
-        found[live] = False
+            live = live[(np.abs(own) > CLOSED * loss) & (high[live] - low[live] > NARROW)]
         losses, rise = self.losses(torque, speed, sump)
-        return Balance(self.paths, sump, losses, self._reported(losses, rise), found)
+        return Balance(self.paths, sump, losses, self._reported(losses, rise), ~found)
 
     def _reported(self, losses: Losses, rise: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
         """Rise of the teeth of every gear pair: by its conductance, else by ISO/TR 15144-1."""

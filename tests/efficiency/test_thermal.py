@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ from scipy.optimize import brentq
 
 import mixedlub as ml
 from mixedlub.cli import main
-from mixedlub.efficiency import Gearbox
+from mixedlub.efficiency import PLANETARY_EXAMPLE, Gearbox, read_gearbox
 from mixedlub.efficiency.heat_paths import HeatPaths
 from mixedlub.efficiency.thermal import ThermalModel
 from mixedlub.efficiency.thermal_cycle import HOUR, cycle
@@ -20,7 +21,7 @@ from mixedlub.efficiency.thermal_file import Thermal
 from mixedlub.efficiency.thermal_table import TABLES, thermal_tables
 from mixedlub.schema.toml_file import parse
 from profiles.errors import InputError
-from tests.efficiency.gearboxes import PARTS, STAGE, gearbox
+from tests.efficiency.gearboxes import PARTS, STAGE, gearbox, written
 
 HOUSING = {"area_m2": 0.3, "coefficient_W_m2K": 12.0, "emissivity": 0.85, "oil_side_W_m2K": 200.0}
 THERMAL: dict[str, Any] = {"ambient_temperature_C": 25.0, "housing": HOUSING, "foundation_W_K": 1.5}
@@ -100,6 +101,15 @@ def test_warm_teeth_have_the_loss_of_a_stage_with_that_rise(tmp_path: Path) -> N
     }
     again = gearbox(tmp_path, stage, conditions=LEVELS)
     assert again.losses(np.array([150.0]), np.array([150.0])).total()[0] == pytest.approx(mesh, rel=1e-6)
+
+
+def test_planetary_stages_take_part(tmp_path: Path) -> None:
+    given = tomllib.loads(Path(str(PLANETARY_EXAMPLE)).read_text(encoding="utf-8"))
+    given |= {"conditions": {"torque_Nm": [0.0, 60.0], "speed_rpm": [1000.0, 3000.0]}, "thermal": THERMAL}
+    balance = ThermalModel(read_gearbox(written(tmp_path, given))[0]).at_map()
+    assert balance.found.all()
+    assert np.abs(balance.gap).max() < 1e-6
+    assert balance.sump[3] > balance.sump[0] + 10.0
 
 
 def test_no_balance_is_flagged(tmp_path: Path) -> None:
