@@ -203,6 +203,12 @@ class Lubricant(Section):
         "instead of it: Eyring stress and limiting stress over pressure and temperature, as `mixedlub fit` and "
         "`mixedlub evaluate two-disc` write them into the file of an oil",
         None,
+        example={
+            "eyring_stress_MPa": {"value": 5.2, "sd": 0.3},
+            "pressure_GPa": [0.6, 1.5],
+            "temperature_C": [40.0, 120.0],
+            "source": "discs of our laboratory, Roelands",
+        },
         alternative=True,
     )
     thermal_conductivity_W_mK: Number | None = key("thermal conductivity of the oil", None, example=0.14)
