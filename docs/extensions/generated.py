@@ -87,6 +87,7 @@ def pieces() -> dict[str, str]:
         "factor_columns": _factor_columns(),
         "friction_laws": _friction_laws(),
         "oils": _oils(),
+        "oils_known": _oils_known(),
         "oil_keys": _oil_keys(),
         "gear_keys": _file_keys("mixedlub.gear.analysis.file", "GearAnalysisFile"),
         "bevel_keys": _file_keys("mixedlub.skew_gears.file", "BevelFile", OF_CASES),
@@ -221,6 +222,27 @@ def _oils() -> str:
             ]
             parts += ["Further laws:", md.named_table(("law", "equation and numbers", "status", "source"), further)]
     return "\n\n".join(parts)
+
+
+def _oils_known() -> str:
+    """Temperatures and pressures at which each oil is known, and its laws."""
+    from mixedlub.schema.oil_file import oil_names, shipped_oil
+
+    rows = []
+    for name in oil_names():
+        oil = shipped_oil(name)
+        known = oil.properties
+        viscosity, alpha = known["kinematic_viscosity_mm2_s"], known["pressure_viscosity_per_GPa"]
+        at = _numbers(known["temperature_C"].value)
+        coefficient = at if alpha.temperature_C is None else f"{alpha.temperature_C:g}"
+        law = "modulus equation, Roelands" if "pressure_modulus_MPa" in known else "Roelands"
+        stress = known.get("eyring_stress_MPa")
+        shear = "typical" if stress is None else f"{_numbers(stress.value)} MPa, {stress.status}"
+        limit = oil.further.get("limiting_stress")
+        limited = "not known" if limit is None else f"{limit.values['Lambda']:g} p, not used"
+        rows.append((name, f"{at} °C, {viscosity.status}", f"{coefficient} °C, {alpha.status}", law, shear, limited))
+    head = ("oil", "viscosity", "coefficient under pressure", "law under pressure", "Eyring stress", "limiting stress")
+    return md.named_table(head, rows)
 
 
 def _presets() -> str:

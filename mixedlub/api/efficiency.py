@@ -10,6 +10,8 @@ import numpy as np
 from mixedlub.efficiency import read_gearbox
 from mixedlub.efficiency.gearbox import MESH
 from mixedlub.efficiency.table import present
+from mixedlub.efficiency.thermal import ThermalModel
+from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.schema.findings import collected, warn_of
 from profiles.errors import as_path
 
@@ -29,7 +31,9 @@ def gearbox_efficiency(file: str | PathLike[str]) -> xr.Dataset:
     -------
     xarray.Dataset
         Variables over (``torque_Nm``, ``speed_rpm``): losses (W) in total and by origin, tooth and gearbox efficiency
-        (percent; NaN at zero torque), and validity; ``part_loss_W`` over (``part``, ``torque_Nm``, ``speed_rpm``).
+        (percent; NaN at zero torque), and validity; ``part_loss_W`` over (``part``, ``torque_Nm``, ``speed_rpm``). With
+        ``[thermal]`` also ``sump_temperature_C`` (NaN without a balance), ``balanced_loss_W`` and
+        ``balanced_efficiency_percent`` at that temperature.
 
     Raises
     ------
@@ -51,7 +55,8 @@ def gearbox_efficiency(file: str | PathLike[str]) -> xr.Dataset:
     with collected() as findings:
         gearbox, notes = read_gearbox(as_path(file, "gearbox_efficiency: file"))
         losses = gearbox.map()
-    warn_of([*losses.findings, *findings, *notes])
+        balance = None if gearbox.file.thermal is None else ThermalModel(gearbox).at_map()
+    warn_of([*losses.findings, *findings, *notes, *(() if balance is None else balance.findings)])
     levels = gearbox.file.conditions
     shape, axes = (len(levels.torque_Nm), len(levels.speed_rpm)), ("torque_Nm", "speed_rpm")
 
@@ -68,6 +73,12 @@ def gearbox_efficiency(file: str | PathLike[str]) -> xr.Dataset:
         "part_loss_W": (("part", *axes), parts),
         "validity": over(np.array(losses.validity)),
     }
+    if balance is not None:
+        variables |= {
+            "sump_temperature_C": over(np.where(balance.found, balance.sump - ZERO_CELSIUS, np.nan)),
+            "balanced_loss_W": over(balance.losses.total()),
+            "balanced_efficiency_percent": over(100.0 * balance.losses.efficiency()),
+        }
     names = [" ".join(filter(None, origin)) for origin in losses.by_origin]
     coordinates = {"part": names, "torque_Nm": list(levels.torque_Nm), "speed_rpm": list(levels.speed_rpm)}
     return xr.Dataset(variables, coordinates, {"title": gearbox.file.title})

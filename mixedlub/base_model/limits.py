@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -23,6 +23,8 @@ HARDNESS = 8e9
 """Source: ISO 18265. Hardness (Pa) of hardened steel, 800 HV at 64 HRC."""
 FAR_FROM_OIL = 30.0
 """Judgement. Temperature distance (K) from both viscosity points up to which the viscosity law is accurate enough."""
+FAR_FROM_PRESSURE = 0.3e9
+"""Judgement. Pressure (Pa) beyond the readings of a traction part up to which its powers are accurate enough."""
 EXACT = 1e-8
 """Largest relative error of the load carried by film and asperities together."""
 BROAD = 1.5
@@ -59,7 +61,20 @@ def contact_limits(inputs: Mapping[str, Any], effects: Collection[str] = ()) -> 
         near, far = ((low - n * FAR_FROM_OIL, high + n * FAR_FROM_OIL) for n in (1.0, 2.0))
         advice = "the viscosity is extrapolated far from the two that the oil is given by"
         found.append(Limit("viscosity_extrapolated", "oil_temperature", near, advice, far))
-    return (*found, *_OF_CONTACTS)
+    return (*found, *_of_traction(inputs), *_OF_CONTACTS)
+
+
+def _of_traction(inputs: Mapping[str, Any]) -> Iterator[Limit]:
+    """Limits of the readings behind the traction part of an oil."""
+    advice = "the Eyring stress and limiting stress of the oil are extrapolated from the readings of its traction part"
+    for quantity, what, margin in (
+        ("hertz_pressure", "pressure", FAR_FROM_PRESSURE),
+        ("oil_temperature", "temperature", FAR_FROM_OIL),
+    ):
+        names = f"lowest_fitted_{what}", f"highest_fitted_{what}"
+        if all(name in inputs for name in names):
+            low, high = (float(np.max(inputs[name])) for name in names)
+            yield Limit("traction_extrapolated", quantity, (low, high), advice, (low - margin, high + margin))
 
 
 _ELASTIC = Limit(

@@ -244,6 +244,11 @@ def _checked(
             check_rows(found, system, folder, conditions, recordings)
         missing = _missing_part(folder, system, found)
     effects, laws = by_id(system.effects, folder, found.numbers)
+    if laws:
+        system = system.model_copy(update={"effects": effects})
+    rows = recordings or conditions
+    if rows is not None and "shear_stress" in dict(found.chain(system, rows)):
+        system = _with_traction(system, notes)
     rig = Rig(system, folder, found.unread_of_oil)
     if system.base != "formulas":
         from mixedlub.case.full_base import refuse
@@ -252,7 +257,7 @@ def _checked(
     case = Case(
         name,
         folder,
-        system.model_copy(update={"effects": effects}) if laws else system,
+        system,
         found,
         rig,
         recordings,
@@ -263,6 +268,19 @@ def _checked(
         missing=missing,
     )
     return with_hypotheses(case, hypotheses)
+
+
+def _with_traction(system: system_file.System, notes: list[Finding]) -> system_file.System:
+    """System with the traction part of its oil as known effects, and the uncertainty of its Eyring stress."""
+    part = None if system.lubricant is None else system.lubricant.traction
+    if part is None:
+        return system
+    notes.append(part.told)
+    stress, sds = part.eyring_stress_MPa, system.uncertainty
+    if sds.eyring_stress == 0.0 and stress.sd > 0.0:
+        sds = sds.model_copy(update={"eyring_stress": stress.sd / stress.value})
+    effects = {} if system.base != "formulas" else part.effects(uncertain=True)
+    return system.model_copy(update={"effects": {**effects, **system.effects}, "uncertainty": sds})
 
 
 def with_hypotheses(case: Case, paths: Sequence[str | Path]) -> Case:

@@ -77,6 +77,10 @@ first_known_temperature | theta_1    | K       | temperature of the first of the
 second_known_temperature | theta_2  | K       | temperature of the second of the two given viscosities
 known_fall              | f_12       | -       | logarithm of the first given viscosity over the second
 fall_from_first         | f_1        | -       | logarithm of the first given viscosity over that at hand
+lowest_fitted_pressure  | p_f1       | Pa      | lowest Hertz pressure of the readings of the oil's traction part
+highest_fitted_pressure | p_f2       | Pa      | highest Hertz pressure of these readings
+lowest_fitted_temperature | theta_f1 | K       | lowest oil temperature of these readings
+highest_fitted_temperature | theta_f2 | K      | highest oil temperature of these readings
 oil_density             | rho        | kg/m^3  | density of the oil
 kinematic_viscosity     | nu         | m^2/s   | kinematic viscosity at oil temperature and ambient pressure
 oil_conductivity        | k_f        | W/(m K) | thermal conductivity of the oil

@@ -32,7 +32,8 @@ def command(
     One stage or several in series, of one gear pair or planetary, each with its oil, bearings, seals and wheels in oil
     and air: map.csv and loss_map.csv over torque and speed, losses.csv by part, breakdown.csv, stages.csv,
     mesh_cycle.csv and tooth_pair.csv at one condition, members.csv, rolling.csv, planets.csv and pairings.csv of
-    planetary stages, duty.csv of a duty cycle, and figures.
+    planetary stages, duty.csv of a duty cycle, and figures. With [thermal] also the sump temperature at which the
+    losses equal the heat that leaves: thermal.csv, and over the duty cycle thermal_duty.csv and thermal_history.csv.
     """
     import numpy as np
 
@@ -64,9 +65,20 @@ def command(
         hours = np.array(duty.duration_h)
         points = gearbox.losses(np.array(duty.torque_Nm), np.array(duty.speed_rpm) * np.pi / 30.0)
         made |= {"duty": tables.duty_table(points, hours), "duty_summary": tables.duty_summary(points, hours)}
+    lines = [*_lines(made, at)]
+    if gearbox.file.thermal is not None:
+        from mixedlub.efficiency.thermal import ThermalModel
+        from mixedlub.efficiency.thermal_table import thermal_lines, thermal_tables
+
+        with input_errors_from(str(file)), busy("balancing heat"):
+            model = ThermalModel(gearbox)
+            heat, found = thermal_tables(model, model.at_map())
+        print_findings(found)
+        made |= heat
+        lines += thermal_lines(heat)
     title, notes = gearbox.file.title, tuple(_notes(gearbox))
     figures = efficiency_figures(title, losses, cycles, made)
-    deliver(Result(title, made, figures, tuple(_lines(made, at)), notes, columns=tables.TABLES), to)
+    deliver(Result(title, made, figures, tuple(lines), notes, columns=tables.TABLES), to)
 
 
 def _notes(gearbox: Gearbox) -> Iterator[str]:

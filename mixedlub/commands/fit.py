@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -10,7 +11,8 @@ import typer
 from mixedlub.commands.console import busy, input_errors_from, print_findings
 from mixedlub.commands.deliver import How, deliver, delivers
 from mixedlub.running.origin import origin_of, origin_of_file
-from mixedlub.schema.findings import collected
+from mixedlub.schema.findings import collected, report
+from mixedlub.schema.result import Result
 from profiles.errors import InputError
 from profiles.units import number_of
 
@@ -59,7 +61,8 @@ def command(
     drive or a viscometer. The report ranks them by evidence, with AICC, BIC, parameters and 90 % intervals, names the
     laws that are tied, the condition at which a law misfits, and the column that a law lacks.
 
-    The fitted law is written for studies, cases and the solver: law.toml, options.toml, oil.toml, viscosity.toml.
+    The fitted law is written for studies, cases and the solver: law.toml, options.toml, oil.toml, viscosity.toml. Of a
+    case of two discs with its oil, oil.toml has Eyring stress and limiting stress over pressure and temperature.
     """
     from mixedlub.fit import TABLES, ranking, read_readings, result
 
@@ -71,9 +74,33 @@ def command(
         with busy("fitting"), collected() as findings:
             readings = read_readings(file, quantity, numbers_of(constants), relative_sd)
             found = ranking(readings, tuple(own))
-            answer = result(found, f"Laws fitted to {file.name}", law)
+            answer = with_traction(result(found, f"Laws fitted to {file.name}", law), file)
     print_findings([*readings.notes, *findings, *found.range_findings(found.best)])
     deliver(answer, to, written=f"laws.csv, parameters.csv, {', '.join(answer.files)} in {to.folder}")
+
+
+def with_traction(answer: Result, file: Path) -> Result:
+    """Result with the traction part of the oil, of a case of two discs with the viscosities of its oil."""
+    from mixedlub.case.folder import read_case
+    from mixedlub.evaluate.result_columns import TRACTION_PART
+    from mixedlub.evaluate.traction_fit import fits_traction, fitted_traction
+
+    case = None
+    if file.is_dir():
+        with collected():
+            case = read_case(file)
+    if case is None or not fits_traction(case):
+        return answer
+    part = fitted_traction(case, file.name)
+    for one in part.findings:
+        report(one)
+    return replace(
+        answer,
+        tables={**answer.tables, "traction_part": part.table},
+        columns={**answer.columns, "traction_part": TRACTION_PART},
+        lines=(*answer.lines, "Traction part of the oil, in oil.toml:", *(f"  {line}" for line in part.lines)),
+        files={**answer.files, "oil.toml": part.file},
+    )
 
 
 def numbers_of(settings: list[str]) -> dict[str, float]:

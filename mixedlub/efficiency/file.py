@@ -21,6 +21,7 @@ from mixedlub.efficiency.part_tables import (
     Windage,
 )
 from mixedlub.efficiency.planetary_file import PlanetaryStage
+from mixedlub.efficiency.thermal_file import Thermal
 from mixedlub.schema.section import Number, NumberOrName, Section, Whole, key
 from mixedlub.schema.system_file import Gears, Lubricant
 from mixedlub.study.schema import Numbers, Options, each_once
@@ -126,6 +127,11 @@ class EfficiencyFile(Section):
     )
     cycle: Cycle = key("the condition of the mesh cycle and of the breakdown", Cycle())
     duty: Duty | None = key("operating points with hours: energy and mean efficiency", None)
+    thermal: Thermal | None = key(
+        "ways of the heat to the surroundings: the sump temperature at which they carry all losses, at every condition "
+        "and over the duty cycle",
+        None,
+    )
     stages: dict[str, Stage] = key("one table a stage of one gear pair, in the order of the power", {})
     planetary: dict[str, PlanetaryStage] = key("one table a planetary stage, in the order of the power", {})
     order: tuple[str, ...] = key(

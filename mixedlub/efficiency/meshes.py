@@ -56,17 +56,25 @@ def load_shares(study: Study, torque: np.ndarray) -> Shares:
     return between
 
 
-def mesh_losses(study: Study, torque: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, np.ndarray, Reached]:
+def mesh_losses(
+    study: Study, torque: np.ndarray, speed: np.ndarray, warm: np.ndarray | None = None
+) -> tuple[np.ndarray, np.ndarray, Reached]:
     """Sliding and rolling loss (W) of a mesh, and its limits with the values of each condition.
 
-    ``torque`` (N m) and ``speed`` (rad/s) of the pinion by condition. Without torque, sliding loss is zero, rolling
-    loss is at vanishing load, and limits of the contact are not judged.
+    ``torque`` (N m) and ``speed`` (rad/s) of the pinion and oil temperature ``warm`` (K) by condition. Without torque,
+    sliding loss is zero, rolling loss is at vanishing load, and limits of the contact are not judged.
     """
     pressed = np.maximum(torque, LEAST_TORQUE * max(1.0, float(torque.max())))
     shares = load_shares(study, pressed)
     step = max(1, MOST_POINTS // study.plan.points)
     parts = [
-        _computed(study, shares, pressed[start : start + step], speed[start : start + step])
+        _computed(
+            study,
+            shares,
+            pressed[start : start + step],
+            speed[start : start + step],
+            None if warm is None else warm[start : start + step],
+        )
         for start in range(0, torque.size, step)
     ]
     sliding, rolling = (np.concatenate([part[index] for part in parts]) for index in (0, 1))
@@ -78,10 +86,10 @@ def mesh_losses(study: Study, torque: np.ndarray, speed: np.ndarray) -> tuple[np
 
 
 def _computed(
-    study: Study, shares: Shares, torque: np.ndarray, speed: np.ndarray
+    study: Study, shares: Shares, torque: np.ndarray, speed: np.ndarray, warm: np.ndarray | None
 ) -> tuple[np.ndarray, np.ndarray, Reached]:
     """Losses and limits as in `mesh_losses`, for loaded conditions, all at once."""
-    plan = replace(study.plan, inputs=conditioned(study, shares, torque, speed), shape=(1, 1, torque.size, 1))
+    plan = replace(study.plan, inputs=conditioned(study, shares, torque, speed, warm), shape=(1, 1, torque.size, 1))
     values = {name: np.empty(plan.shape) for name in batch.names(plan)}
     # As many blocks as keep every processor busy to the end.
     most = max(1, -(-torque.size // (2 * batch.processors())))
@@ -97,11 +105,19 @@ def _computed(
     return values["mesh_loss"].ravel(), values["rolling_loss"].ravel(), limits
 
 
-def conditioned(study: Study, shares: Shares, torque: np.ndarray, speed: np.ndarray) -> dict[str, Any]:
-    """Mesh inputs at pinion torques (N m) and speeds (rad/s) along the third axis, frictional heat included."""
+def conditioned(
+    study: Study, shares: Shares, torque: np.ndarray, speed: np.ndarray, warm: np.ndarray | None = None
+) -> dict[str, Any]:
+    """Mesh inputs at pinion torques (N m), speeds (rad/s) and oil temperatures (K) along the third axis, frictional
+    heat included."""
     plan, share = study.plan, shares(torque)[None, None, :, None, :]
     own = mesh_inputs(study.mesh, share, torque.reshape(1, 1, -1, 1, 1), speed.reshape(1, 1, -1, 1, 1))
     inputs = {**plan.inputs, **own}
+    if warm is not None:
+        kelvin = (warm + plan.options.bulk_temperature_rise_K).reshape(1, 1, -1, 1, 1)
+        inputs |= {**study.oil.inputs(kelvin), "oil_temperature": kelvin}
+        entering = {"entering_viscosity": "viscosity", "entering_coefficient": "pressure_viscosity"}
+        inputs |= {name: inputs[own] for name, own in entering.items() if name in inputs}
     if HEAT in inputs:
         bare = Model(plan.chain(plan.options), tuple(inputs), (LOSS,))
         inputs |= heat_inputs(bare, inputs, (1, 1, torque.size, 1), plan.points)

@@ -53,13 +53,13 @@ class StagePart:
     side: int
     load: Load = NO_LOAD
 
-    def loss(self, pair: GearPair, oil: Mapping[str, float], torque: np.ndarray, speed: np.ndarray) -> np.ndarray:
+    def loss(self, pair: GearPair, oil: Mapping[str, Any], torque: np.ndarray, speed: np.ndarray) -> np.ndarray:
         """Power loss (W) at torques (N m) and speeds (rad/s) of the pinion."""
         own = speed if self.side == 0 else speed / pair.gear_ratio
         radial, axial = self.load
         return self._power(own, {**_wheel(pair, self.side), **oil}, radial * torque, axial * torque)
 
-    def at(self, speed: np.ndarray, oil: Mapping[str, float], radial: np.ndarray | float) -> np.ndarray:
+    def at(self, speed: np.ndarray, oil: Mapping[str, Any], radial: np.ndarray | float) -> np.ndarray:
         """Power loss (W) of a part without wheel at speeds (rad/s) and radial loads (N) of its shaft."""
         return self._power(speed, oil, radial, 0.0)
 
@@ -132,7 +132,7 @@ def part_of(table: str, name: str, section: Part, where: str) -> StagePart:
 
 
 def bearing_findings(
-    part: StagePart, pair: GearPair, oil: Mapping[str, float], where: str, *, idles: bool
+    part: StagePart, pair: GearPair, oil: Mapping[str, Any], where: str, *, idles: bool
 ) -> Iterator[Finding]:
     """Doubt about a static rating untypical of the bearing size; note on a freely turning bearing.
 
@@ -202,7 +202,7 @@ def _wheel(pair: GearPair, side: int) -> dict[str, Any]:
     }
 
 
-def oil_state(oil: Lubricant, temperature: float) -> dict[str, float]:
-    """Oil inputs of part laws at a temperature (K)."""
-    at = np.array(temperature)
-    return {"viscosity": float(oil.viscosity(at)), "oil_density": float(oil.density(at))}
+def oil_state(oil: Lubricant, temperature: np.ndarray | float) -> dict[str, np.ndarray]:
+    """Oil inputs of part laws at temperatures (K)."""
+    at = np.asarray(temperature, dtype=float)
+    return {"viscosity": np.asarray(oil.viscosity(at)), "oil_density": np.asarray(oil.density(at))}

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import product
+from typing import Any
 
 import numpy as np
 
@@ -61,10 +62,15 @@ class PlanetaryModel:
     train: PlanetaryTrain
     planets: PlanetSet
     meshes: tuple[StageModel, ...]
-    oil: Mapping[str, float]
+    oil: Mapping[str, Any]
     parts: tuple[StagePart, ...]
     planet_parts: Mapping[str, tuple[StagePart, ...]]
     finished: Mapping[str, Mapping[tuple[str, str], StageModel]] = field(default_factory=dict)
+
+    def at(self, sump: np.ndarray, rise: np.ndarray) -> PlanetaryModel:
+        """Stage with oil temperatures (K) by condition; the oil of the meshes is warmer by a rise (K)."""
+        meshes = tuple(one.at(sump, rise) for one in self.meshes)
+        return replace(self, meshes=meshes, oil=meshes[0].oil)
 
     @property
     def driving(self) -> str:
@@ -162,7 +168,9 @@ class PlanetaryModel:
         of_mean = np.abs(flow.force[index] * self.train.teeth[index, 0]) / self.section.planet_count
         turning = np.broadcast_to(np.abs(self.train.relative[index, 0]) * speed, of_mean.shape)
         at = np.concatenate([of_mean * load for load in loads])
-        sliding, rolling, reached = mesh_losses(self.meshes[index].study, at, np.tile(turning, loads.size))
+        warm = self.meshes[index].warm
+        warm = None if warm is None else np.tile(warm, loads.size)
+        sliding, rolling, reached = mesh_losses(self.meshes[index].study, at, np.tile(turning, loads.size), warm)
         totals = [np.sum(counts[:, None] * values.reshape(loads.size, -1), axis=0) for values in (sliding, rolling)]
         last = [(limit, values.reshape(loads.size, -1)[-1]) for limit, values in reached]
         return totals[0], totals[1], last

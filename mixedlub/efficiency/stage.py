@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from mixedlub.chain.ranges import Reached
 from mixedlub.efficiency.meshes import mesh_losses
-from mixedlub.efficiency.parts import StagePart
+from mixedlub.efficiency.parts import StagePart, oil_state
 from mixedlub.gear import GearPair
 from mixedlub.study import Study
 from profiles.errors import InputError
@@ -29,13 +30,19 @@ def check_finite(place: str, loss: np.ndarray, torque: np.ndarray, speed: np.nda
 
 @dataclass(frozen=True, eq=False)
 class StageModel:
-    """Gear pair with oil and parts, in SI."""
+    """Gear pair with oil and parts, in SI; ``warm``: oil temperature (K) of the mesh by condition, by default that of
+    the file."""
 
     name: str
     driving: str
     study: Study
-    oil: Mapping[str, float]
+    oil: Mapping[str, Any]
     parts: tuple[StagePart, ...]
+    warm: np.ndarray | None = None
+
+    def at(self, sump: np.ndarray, rise: np.ndarray) -> StageModel:
+        """Stage with oil temperatures (K) by condition; the oil of the mesh is warmer by a rise (K)."""
+        return replace(self, warm=sump + rise, oil=oil_state(self.study.oil, sump))
 
     @property
     def pair(self) -> GearPair:
@@ -74,7 +81,7 @@ class StageModel:
     def losses(self, torque: np.ndarray, speed: np.ndarray) -> tuple[dict[Origin, np.ndarray], dict[str, Reached]]:
         """Losses (W) by origin at torques (N m) and speeds (rad/s) of the driving side, and limits by place."""
         own = self.of_pinion(torque, speed)
-        sliding, rolling, reached = mesh_losses(self.study, *own)
+        sliding, rolling, reached = mesh_losses(self.study, *own, self.warm)
         found = {(self.name, "sliding", ""): sliding, (self.name, "rolling", ""): rolling}
         for part in self.parts:
             found[self.name, part.table, part.name] = part.loss(self.pair, self.oil, *own)

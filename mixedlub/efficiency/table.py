@@ -10,6 +10,7 @@ import pandas as pd
 from mixedlub.efficiency.gearbox import MESH, ORIGINS, Gearbox, Losses, Origin
 from mixedlub.efficiency.mesh_cycle import MeshCycle
 from mixedlub.efficiency.planetary_table import TABLES as PLANETARY
+from mixedlub.efficiency.thermal_table import TABLES as THERMAL
 from mixedlub.schema.result import column, described, frame_of
 
 RPM = 30.0 / np.pi
@@ -93,6 +94,7 @@ TABLES = {
         ORIGIN_energy_kWh="part of the energy lost by its origin",
     ),
     **PLANETARY,
+    **THERMAL,
 }
 """Columns of the tables of `mixedlub efficiency`."""
 

@@ -65,7 +65,7 @@ def sheared(column: FilmColumn, start: np.ndarray) -> Sheared:
     mean_stress = start
     for _ in range(STRESS_STEPS):
         stress = mean_stress[..., None] + slope
-        rate, soft, _ = column.oil.shear(stress, pressure)
+        rate, soft, *_ = column.oil.sheared(stress, pressure, column.temperature)
         rate, soft = rate * fluidity, soft * fluidity
         slid = column.gap * (rate @ WEIGHTS)
         off = np.arcsinh(slid / least) - wanted
@@ -75,8 +75,9 @@ def sheared(column: FilmColumn, start: np.ndarray) -> Sheared:
         if np.all(miss <= STRESS_TOLERANCE):
             break
     stress = mean_stress[..., None] + slope
-    rate, soft, hard = (value * fluidity for value in column.oil.shear(stress, pressure))
-    return Sheared(mean_stress, stress, rate, soft, hard - rate * by_p, -rate * by_t, miss)
+    flowing = column.oil.sheared(stress, pressure, column.temperature)
+    rate, soft, hard, warm = (value * fluidity for value in flowing)
+    return Sheared(mean_stress, stress, rate, soft, hard - rate * by_p, warm - rate * by_t, miss)
 
 
 @dataclass(frozen=True)

@@ -116,7 +116,7 @@ def of_oil(oil: Oil) -> Iterator[np.ndarray]:
         yield from oil.density_ratio(pressure, temperature)
         yield oil.expansion(pressure, temperature)
         for stress in STRESSES:
-            yield from oil.shear(np.full_like(pressure, stress), pressure)
+            yield from oil.sheared(np.full_like(pressure, stress), pressure, temperature)
         yield from (oil.stress_scale(pressure), oil.stress_limit(pressure))
     constants = (oil.density, oil.conductivity, oil.heat_capacity, float(oil.newtonian))
     yield np.array(constants)

@@ -111,6 +111,15 @@ DISC = {
     "oil_temperature_C": "temperature of the oil",
 }
 SIDES = {"surface_1": "text: surface of the first disc", "surface_2": "text: surface of the second disc"}
+TRACTION_PART = described(
+    parameter="text: key of the traction part in oil.toml",
+    value="most probable value, in the unit of the row",
+    sd="standard deviation",
+    low90="lower end of the 90 % interval",
+    high90="upper end of it",
+    unit="text: unit of the row",
+    told="text: no if the readings leave the number at its prior",
+)
 TWO_DISC = {
     "traction": (
         *described(**RUN, **SIDES, **DISC, sliding_speed_m_s="speed of the first surface less that of the second"),
@@ -129,6 +138,7 @@ TWO_DISC = {
         *with_interval("exponent", "d ln friction over d ln condition; of temperature, per kelvin"),
         *described(largest_friction="largest friction coefficient of the sweep"),
     ),
+    "traction_part": TRACTION_PART,
 }
 OF_LAW = {"law": "text: sign of sliding, and surfaces where there are several"}
 REGRESSION = {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 import pandas as pd
@@ -25,6 +25,7 @@ from mixedlub.laws.contact import (
     reduced_modulus,
 )
 from mixedlub.recording.set_points import near_values
+from mixedlub.schema.findings import report
 from mixedlub.schema.result import curve
 from mixedlub.schema.section import Number, Section, key
 from mixedlub.schema.system_file import Contact, RigFile
@@ -32,6 +33,11 @@ from mixedlub.schema.table import RUN, Column, Table, read_table
 from mixedlub.schema.toml_file import named_file
 from profiles.errors import InputError
 
+if TYPE_CHECKING:
+    from mixedlub.evaluate.traction_fit import TractionFit
+
+OIL_FILE = "oil.toml"
+"""Definition. Oil file with a fitted traction part."""
 SOURCE = "Vaishya and Houser 1999, AGMA 99FTMS1, section 3, tables 1 and 3, figures 2 and 3"
 Share = Annotated[Number, Field(ge=0.0, lt=1.0)]
 Size = Annotated[Number, Field(ge=0.0)]
@@ -66,6 +72,12 @@ class TwoDiscFile(RigFile):
     readings: str = key("table of the readings, relative to this file", example="readings.csv")
     contact: Contact = key("the two discs")
     meters: Meters = key("standard deviations of the meters, and what the torque contains", Meters())
+    traction_part: bool = key(
+        "fit Eyring stress and limiting stress of the oil over pressure and temperature to the readings, and write "
+        "oil.toml with them",
+        False,
+        example=True,
+    )
 
 
 COLUMNS = (
@@ -223,7 +235,27 @@ def run(file: TwoDiscFile, path: Path) -> Evaluated:
     case = _case(file, path, table, frame, errors)
     notes = list(_notes(file, case))
     figures, lines = _figures(frame, swept, surfaces), tuple(_lines(frame, tables["sweeps"]))
-    return Evaluated(file.title, tables, figures, lines, tuple(notes), case)
+    if not file.traction_part:
+        return Evaluated(file.title, tables, figures, lines, tuple(notes), case)
+    part = _traction_part(path, case)
+    tables["traction_part"] = part.table
+    files = {OIL_FILE: part.file}
+    return Evaluated(file.title, tables, figures, (*lines, *part.lines), tuple(notes), case, files=files)
+
+
+def _traction_part(path: Path, case: CaseDraft | None) -> TractionFit:
+    """Traction part of the oil from the readings as a case."""
+    from mixedlub.case.folder import case_of
+    from mixedlub.evaluate.traction_fit import fitted_traction
+
+    if case is None:
+        rule = "needs [lubricant], [surfaces.NAME], and surface_1 and surface_2 in the readings"
+        raise InputError(rule, where=f"{path}: traction_part")
+    made = case_of(case.system, case.columns, name=path.name, folder=path.parent)
+    found = fitted_traction(made, path.name)
+    for one in found.findings:
+        report(one)
+    return found
 
 
 def _notes(file: TwoDiscFile, case: CaseDraft | None) -> Iterator[str]:

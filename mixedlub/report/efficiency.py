@@ -37,7 +37,22 @@ def efficiency_figures(
         "efficiency": tuple(_efficiency(tables["map"])),
         "mesh_cycle": tuple(_cycle(cycles)),
         "tooth_pair": tuple(_tooth(tables["tooth_pair"])),
+        **({"thermal": tuple(_thermal(tables))} if "thermal" in tables else {}),
     }
+
+
+def _thermal(tables: Mapping[str, pd.DataFrame]) -> Iterator[Panel]:
+    """Sump temperature over speed for some torques, and over the time of the duty cycle."""
+    table = tables["thermal"]
+    torques = np.unique(table["torque_Nm"])
+    chosen = torques[np.unique(np.linspace(0, torques.size - 1, CURVES).astype(int))]
+    curves = tuple(
+        curve(table[table["torque_Nm"] == one], "speed_rpm", "sump_temperature_C", f"{one:g} N m") for one in chosen
+    )
+    yield Panel("speed of the input (rpm)", "sump temperature (°C)", curves)
+    if "thermal_history" in tables:
+        over = curve(tables["thermal_history"], "time_h", "sump_temperature_C")
+        yield Panel("time (h)", "sump temperature (°C)", (over,))
 
 
 def map_figure(title: str, losses: Losses) -> Figure | None:

@@ -62,7 +62,8 @@ def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (
     """
     section = section or system_file.Lubricant()
     _report_oil(section, folder)
-    known = {k: v for k, v in section.model_dump().items() if v is not None and k not in ("name", "base", "oil")}
+    words = ("name", "base", "oil", "traction")
+    known = {k: v for k, v in section.model_dump().items() if v is not None and k not in words}
     base = typical(section)
     assumed = [key for key in base if key not in known and key != "source" and key not in unread]
     full = {**base, **known}
@@ -90,6 +91,7 @@ def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (
         heat_capacity=full["specific_heat_J_kgK"],
         pressure_modulus=None if modulus is None else (modulus[0] * 1e6, modulus[1] * 1e6),
         modulus_slope=full.get("pressure_modulus_slope"),
+        traction=section.traction,
     )
     if section.known_pressure_viscosity is not None:
         oil = _carried(oil, section.known_pressure_viscosity, section.base or DEFAULT_BASE, unread)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mixedlub.laws import oil
+from mixedlub.schema.traction_part import Traction
 from profiles.errors import InputError
 
 LINEAR, ROELANDS, GOLD = "linear", "roelands", "gold"
@@ -18,7 +19,8 @@ class Lubricant:
     """Oil in SI: two points of kinematic viscosity, pressure-viscosity coefficient, density, thermal properties.
 
     ``carried``: extension of the coefficient to other temperatures, linear in temperature through its two values, at
-    the exponent of Roelands, or as a power of kinematic viscosity through the values.
+    the exponent of Roelands, or as a power of kinematic viscosity through the values. ``traction``: Eyring stress and
+    limiting stress over pressure and temperature.
     """
 
     name: str
@@ -33,6 +35,7 @@ class Lubricant:
     pressure_modulus: tuple[float, float] | None = None
     modulus_slope: tuple[float, float] | None = None
     carried: str = LINEAR
+    traction: Traction | None = None
 
     def density(self, temperature: np.ndarray) -> np.ndarray:
         """Density at ambient pressure (kg/m^3): linear in temperature (K)."""
@@ -130,6 +133,19 @@ class Lubricant:
             "oil_heat_capacity": self.heat_capacity,
             "eyring_stress": self.eyring_stress,
             **self._modulus(temperature),
+            **self._fitted_range(),
+        }
+
+    def _fitted_range(self) -> dict[str, float]:
+        """Range of the readings behind the traction part, or empty."""
+        if self.traction is None:
+            return {}
+        pressure, temperature = self.traction.pressure_GPa, self.traction.temperature_C
+        return {
+            "lowest_fitted_pressure": pressure[0] * 1e9,
+            "highest_fitted_pressure": pressure[1] * 1e9,
+            "lowest_fitted_temperature": temperature[0] + oil.ZERO_CELSIUS,
+            "highest_fitted_temperature": temperature[1] + oil.ZERO_CELSIUS,
         }
 
     def _modulus(self, temperature: np.ndarray) -> dict[str, np.ndarray]:

@@ -13,6 +13,7 @@ from pydantic import AfterValidator, Field, model_validator
 
 from mixedlub.schema.section import Number, Section, key
 from mixedlub.schema.toml_file import parse, read_toml
+from mixedlub.schema.traction_part import Traction
 from profiles.errors import InputError, nearest
 
 SUFFIX, SCHEMA = ".toml", "mixedlub-oil/1"
@@ -105,12 +106,18 @@ class OilFile(Section):
     properties: Annotated[dict[str, Property], Field(min_length=1)] = key(
         "one table a key of [lubricant], with its value, status and source"
     )
+    traction: Traction | None = key(
+        "Eyring stress and limiting stress over pressure and temperature, in place of eyring_stress_MPa", None
+    )
     further: dict[str, FurtherLaw] = key("laws of the oil beyond those of this package", {})
 
     @property
     def keys(self) -> dict[str, Any]:
         """Keys of a section ``[lubricant]`` for this oil."""
-        return {"name": self.name, "base": self.base} | dict(p.entry(name) for name, p in self.properties.items())
+        found = {"name": self.name, "base": self.base} | dict(p.entry(name) for name, p in self.properties.items())
+        if self.traction is not None:
+            found |= {STRESS: self.traction.eyring_stress_MPa.value, TRACTION: self.traction}
+        return found
 
 
 def oil_names() -> tuple[str, ...]:
@@ -150,6 +157,8 @@ def oil_of(named: str, folder: Path) -> OilFile:
 
 PAIRS = ("kinematic_viscosity_mm2_s", "pressure_viscosity_per_GPa")
 """Keys with a value at each of the two temperatures of the section."""
+STRESS, TRACTION = "eyring_stress_MPa", "traction"
+"""Keys of a constant Eyring stress and of the law that replaces it."""
 MODULUS = ("pressure_modulus_MPa", "pressure_modulus_slope")
 """Keys of the modulus equation, at the same temperatures; another pressure-viscosity coefficient contradicts them."""
 
@@ -169,10 +178,15 @@ def with_oil(given: Mapping[str, Any], folder: Path) -> dict[str, Any]:
         raise InputError(rule, where="temperature_C", value=given["temperature_C"])
     if PAIRS[1] in given or KNOWN in given:
         own = {name: value for name, value in own.items() if name not in (*MODULUS, PAIRS[1], KNOWN)}
+    if STRESS in given or TRACTION in given:
+        own = {name: value for name, value in own.items() if name not in (STRESS, TRACTION)}
     return {**own, **given}
 
 
 def overridden(section: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     """Values of the oil that its section states differently or does not use, except the name."""
     own = oil_of(str(section["oil"]), folder).keys
-    return {name: value for name, value in own.items() if name != "name" and section[name] != value}
+    if TRACTION in own:
+        own[TRACTION] = own[TRACTION].model_dump()
+    other = {name: value for name, value in own.items() if name != "name" and section[name] != value}
+    return {name: "law" if name == TRACTION else value for name, value in other.items()}

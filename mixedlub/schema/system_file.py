@@ -20,11 +20,12 @@ from pydantic import (
 
 from mixedlub.schema.discovery import declared
 from mixedlub.schema.gear_file import gear_names, with_preset
-from mixedlub.schema.oil_file import STOCKS, Base, KnownCoefficient, oil_names, with_oil
+from mixedlub.schema.oil_file import STOCKS, STRESS, TRACTION, Base, KnownCoefficient, oil_names, with_oil
 from mixedlub.schema.section import Float, Number, NumberOrName, Section, Whole, key, one_of, tables, with_ranges
 from mixedlub.schema.settable import Settable
 from mixedlub.schema.simulation_file import Condition, SimulationInput, simulation_input
 from mixedlub.schema.surface_file import SurfaceSection
+from mixedlub.schema.traction_part import Traction, eyring_stress_of
 from profiles.errors import InputError
 
 
@@ -204,6 +205,18 @@ class Lubricant(Section):
     density_15C_kg_m3: Number | None = key("density at 15 °C", None, example=850.0)
     density_change_per_K: Number | None = key("relative fall of the density", None, example=7e-4)
     eyring_stress_MPa: Number | None = key("Eyring stress of the film", None, example=5.0)
+    traction: Traction | None = key(
+        "instead of it: Eyring stress and limiting stress over pressure and temperature, as `mixedlub fit` and "
+        "`mixedlub evaluate two-disc` write them into the file of an oil",
+        None,
+        example={
+            "eyring_stress_MPa": {"value": 5.2, "sd": 0.3},
+            "pressure_GPa": [0.6, 1.5],
+            "temperature_C": [40.0, 120.0],
+            "source": "discs of our laboratory, Roelands",
+        },
+        alternative=True,
+    )
     thermal_conductivity_W_mK: Number | None = key("thermal conductivity of the oil", None, example=0.14)
     specific_heat_J_kgK: Number | None = key("specific heat of the oil", None, example=2000.0)
 
@@ -240,7 +253,17 @@ class Lubricant(Section):
     def _of_its_oil(cls, given: Any, info: ValidationInfo) -> Any:
         """Complete the section by its oil."""
         named = given.get("oil") if isinstance(given, Mapping) else None
-        return given if not isinstance(named, str) else with_oil(given, (info.context or {}).get("folder", Path()))
+        full = given if not isinstance(named, str) else with_oil(given, (info.context or {}).get("folder", Path()))
+        if isinstance(full, Mapping) and full.get(STRESS) is None:
+            stress = eyring_stress_of(full.get(TRACTION))
+            full = full if stress is None else {**full, STRESS: stress}
+        return full
+
+    @model_validator(mode="after")
+    def _one_stress(self) -> Lubricant:
+        if self.traction is not None and self.eyring_stress_MPa != self.traction.eyring_stress_MPa.value:
+            raise ValueError("traction has an Eyring stress of its own: leave eyring_stress_MPa or traction out")
+        return self
 
 
 class Uncertainty(Section):

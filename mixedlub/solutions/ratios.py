@@ -51,7 +51,7 @@ def _fitted(oil: Oil, state: State, solved: dict[str, np.ndarray]) -> dict[str, 
     film = 1e-9 * solved["isothermal_central_film_nm"]
     rate = state["own_viscosity"] * state["sliding_speed"] / film
     base_rate = state["contact_viscosity"] * state["sliding_speed"] / state["film_thickness"]
-    peak = stress_of(oil, rate, state["hertz_pressure"]) / state["hertz_pressure"]
+    peak = stress_of(oil, rate, state["hertz_pressure"], state["oil_temperature"]) / state["hertz_pressure"]
     return {
         "film_over_law": solved["isothermal_central_film_nm"] / law,
         "thermal_film_over_law": solved["thermal_central_film_nm"] / law,
@@ -66,17 +66,17 @@ def _fitted(oil: Oil, state: State, solved: dict[str, np.ndarray]) -> dict[str, 
     }
 
 
-def stress_of(oil: Oil, rate: np.ndarray, pressure: np.ndarray) -> np.ndarray:
+def stress_of(oil: Oil, rate: np.ndarray, pressure: np.ndarray, temperature: np.ndarray) -> np.ndarray:
     """Shear stress (Pa) of an oil at viscosity times shear rate ``rate`` (Pa), by bisection.
 
     >>> from mixedlub.ehl import example_oil
-    >>> round(float(stress_of(example_oil(), np.array([228.5e6]), np.array([1e9]))[0]) / 1e6, 2)   # asinh of 45.7
+    >>> round(float(stress_of(example_oil(), *np.array([[228.5e6], [1e9], [333.15]]))[0]) / 1e6, 2)   # asinh of 45.7
     22.58
     """
     low, high = np.zeros_like(rate), np.minimum(rate, oil.stress_limit(pressure))
     for _ in range(_STEPS):
         middle = 0.5 * (low + high)
-        above = oil.shear(middle, pressure)[0] > rate
+        above = oil.sheared(middle, pressure, temperature)[0] > rate
         low, high = np.where(above, low, middle), np.where(above, middle, high)
     return 0.5 * (low + high)
 

@@ -49,6 +49,21 @@ def chosen_effects(
     return known.effects, known.values
 
 
+def with_traction(file: StudyFile, effects: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Effects of a study with those of its oil's traction part; effects stated in the file take precedence."""
+    part = None if file.lubricant is None else file.lubricant.traction
+    options = file.options
+    if part is None or options.base != Options().base:
+        return effects
+    for name in ("friction", "effective_viscosity"):
+        if getattr(options, name) != getattr(Options(), name):
+            text = f'the traction part of the oil is not read with {name} = "{getattr(options, name)}"'
+            report(finding("traction_unread", text, f"options.{name}"))
+            return effects
+    report(part.told)
+    return {**part.effects(uncertain=False), **effects}
+
+
 def _corners(inputs: Mapping[str, Any]) -> dict[str, Any]:
     """Inputs at the first and last levels of each factor, at all points of the path."""
     found = dict(inputs)

@@ -38,7 +38,7 @@ from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, report
 from mixedlub.schema.table_files import escaped
 from mixedlub.study.bands import Group, groups
-from mixedlub.study.chosen_effects import chosen_effects
+from mixedlub.study.chosen_effects import chosen_effects, with_traction
 from mixedlub.study.friction_options import (
     check_coefficients,
     check_friction,
@@ -297,7 +297,7 @@ def pairings_of(section: Pairings | None, known: Mapping[str, object]) -> tuple[
 
 def _resolve(name: str, given: StudyFile, rig: Rig) -> Study:
     stated, laws = by_id(given.effects, rig.folder)
-    file = given.model_copy(update={"effects": stated})
+    file = given.model_copy(update={"effects": with_traction(given, stated)})
     chosen = pairings_of(file.pairings, file.surfaces)
     used = dict.fromkeys(s for both in chosen for s in both)
     idle = [s for s in file.surfaces if s not in used]

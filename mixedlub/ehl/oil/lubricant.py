@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import Any
 
 import numpy as np
 
 from mixedlub.ehl.oil import density, shear
+from mixedlub.ehl.oil.fitted_shear import laws_of
 from mixedlub.ehl.oil.oil import Oil, Slopes, constant, expansion_of
 from mixedlub.laws import oil
 from mixedlub.laws.oil import ROELANDS_LOG, ROELANDS_PRESSURE
@@ -14,15 +16,19 @@ from mixedlub.rig.lubricant import Lubricant
 
 
 def from_lubricant(of: Lubricant) -> Oil:
-    """A Ree-Eyring oil with viscosity by the modulus equation if its constants are given, else by Roelands."""
+    """A Ree-Eyring oil, or one with a traction part, with viscosity by the modulus equation if its constants are given,
+    else by Roelands."""
+    stress: dict[str, Any] = {
+        "shear": partial(shear.ree_eyring, eyring_stress=of.eyring_stress),
+        "stress_scale": constant(of.eyring_stress),
+        "stress_limit": constant(np.inf),
+    }
     squeezed = partial(density.dowson_higginson, known_temperature=oil.ZERO_CELSIUS + 15.0, expansion=of.density_change)
     return Oil(
         name=of.name,
         log_viscosity=partial(roelands if of.pressure_modulus is None else modulus, of=of),
         density_ratio=squeezed,
-        shear=partial(shear.ree_eyring, eyring_stress=of.eyring_stress),
-        stress_scale=constant(of.eyring_stress),
-        stress_limit=constant(np.inf),
+        **(stress if of.traction is None else laws_of(of.traction, of.eyring_stress)),
         newtonian=False,
         density=of.density_15,
         expansion=expansion_of(squeezed),

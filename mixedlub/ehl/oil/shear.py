@@ -54,7 +54,7 @@ def ree_eyring(stress: np.ndarray, pressure: np.ndarray, *, eyring_stress: float
     >>> round(float(ree_eyring(np.array(22.58e6), 0.0, eyring_stress=5e6)[0]) / 1e6)   # inverse of asinh
     229
     """
-    rate, slope, _ = _sinh(stress, np.asarray(eyring_stress))
+    rate, slope, _ = eyring_sinh(stress, np.asarray(eyring_stress))
     return rate, slope, np.zeros_like(stress)
 
 
@@ -98,7 +98,7 @@ def growing_eyring(
     [26.2, 35.6, 47.1, 60.0]
     """
     own, growth = eyring_stress_at(pressure, eyring_stress, eyring_growth, growth_start, growth_end)
-    rate, slope, by_own = _sinh(stress, own)
+    rate, slope, by_own = eyring_sinh(stress, own)
     return rate, slope, by_own * growth
 
 
@@ -113,7 +113,7 @@ def eyring_stress_at(
     return eyring_stress + 0.5 * span * (1.0 + tanh), 0.5 * span * (1.0 - tanh**2) * scale / middle
 
 
-def _sinh(stress: np.ndarray, own: np.ndarray) -> Slopes:
+def eyring_sinh(stress: np.ndarray, own: np.ndarray) -> Slopes:
     """Eyring stress times sinh of the stress ratio, with derivatives by stress and Eyring stress."""
     ratio = stress / own
     inside = np.clip(ratio, -LARGEST_RATIO, LARGEST_RATIO)
