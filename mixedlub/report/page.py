@@ -8,15 +8,16 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import partial
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from mixedlub.report.cutoff_table import cutoff_rows
-from mixedlub.report.figures import BANDS, Drawn, figures
+from mixedlub.report.figures import Drawn, band_words, figures
 from mixedlub.report.interactive import EMBEDDING, PLACE, explorer
 from mixedlub.report.laws import laws_used
 from mixedlub.report.paper_figures import paper_figures
+from mixedlub.report.ranking import ranking_drawn
 from mixedlub.report.style import as_svg, save
 from mixedlub.report.surfaces import (
     height_notes,
@@ -36,11 +37,17 @@ from mixedlub.study.columns import OF_VALIDITY
 from mixedlub.study.fits import FEWEST_PAIRINGS, over_roughness
 from mixedlub.study.options import ignored
 from mixedlub.study.plan import Study
+from mixedlub.study.rank import ranking_tables
 from mixedlub.study.record import assumed, resolved
 from mixedlub.study.results import Results, versions
 from mixedlub.study.schema import Options, StudyFile
 
+if TYPE_CHECKING:
+    import pandas as pd
+
 MOST_SURFACES = 12
+MOST_RANKED = 60
+"""Largest number of rows of the ranking on the page."""
 MOST_GIVEN = 200_000
 """Largest number of characters of the study file on the page."""
 
@@ -53,12 +60,13 @@ def write_page(
     given: str = "",
     formats: Sequence[str] = ("svg",),
     as_in_paper: bool = False,
+    ranked: Mapping[str, pd.DataFrame] | None = None,
     doing: Callable[[str], None] = lambda text: None,
 ) -> list[Finding]:
     """Write ``index.html`` and ``figures/`` into a folder; return the findings on the heights of the traces.
 
-    ``given``: study file as text. ``as_in_paper``: add files of the figures in the style of the paper. ``doing``:
-    called with the next step.
+    ``given``: study file as text. ``as_in_paper``: add files of the figures in the style of the paper. ``ranked``:
+    tables of the ranking, if they are known. ``doing``: called with the next step.
     """
     from jinja2 import Environment
 
@@ -67,7 +75,8 @@ def write_page(
     study = results.study
     profiles = traced(study)
     judged = judgement(profiles)
-    drawn = [*surface_figures(study, profiles, judged), *figures(results)]
+    ranked = ranking_tables(results) if ranked is None else ranked
+    drawn = [*ranking_drawn(ranked), *surface_figures(study, profiles, judged), *figures(results)]
     printed = list(paper_figures(results)) if as_in_paper else []
     tasks: list[Callable[[], Any]] = [partial(_chart, results)]
     tasks += [partial(_saved, one, drawings, formats) for one in (*drawn, *printed)]
@@ -84,9 +93,54 @@ def write_page(
     of_heights = [*(not_gaussian(judged) if normal else []), *height_notes(profiles, judged, normal)]
     texts = {"notes": grouped([*notes, *of_heights]), "provenance": provenance(study), "given": _start(given)}
     embedded = {"chart": chart, "place": PLACE, "embedding": {**EMBEDDING, "downloadFileName": study.name}}
-    page = template.render(**content(results), **texts, **embedded, figures=shown, printed=files_of)
+    page = template.render(
+        **content(results), **texts, **embedded, figures=shown, printed=files_of, ranking=ranking_rows(ranked)
+    )
     (folder / "index.html").write_text(page, encoding="utf-8")
     return of_heights
+
+
+def ranking_rows(ranked: Mapping[str, pd.DataFrame]) -> dict[str, Any] | None:
+    """Heads and rows of the ranking on the page, the best first; None for one pairing."""
+    table = ranked["ranking"]
+    if len(table) < 2:
+        return None
+    chosen = {head: write for head, (needs, write) in RANKED.items() if needs in table}
+    rows = [[write(row) for write in chosen.values()] for row in table.head(MOST_RANKED).to_dict("records")]
+    good = table["as_good_as_best"].eq("yes") if "as_good_as_best" in table else table["place"] == 1
+    return {"heads": list(chosen), "rows": list(zip(good, rows)), "count": len(table), "good": int(good.sum())}
+
+
+RANKED: Mapping[str, tuple[str, Callable[[Mapping[str, Any]], str]]] = {
+    "place": ("place", lambda row: str(row["place"])),
+    "pinion / gear": ("place", lambda row: f"{row['pinion_surface']} / {row['gear_surface']}"),
+    "mean loss (W)": ("place", lambda row: f"{row['mean_loss_W']:.4g}"),
+    "90 % (W)": ("mean_loss_W_low90", lambda row: span(row, "mean_loss_W", ".4g")),
+    "over the first (%)": ("place", lambda row: f"{row['over_best_percent']:.1f}"),
+    "places (90 %)": ("place_low90", lambda row: span(row, "place", ".0f")),
+    "P(best)": ("best_probability", lambda row: f"{row['best_probability']:.2f}"),
+    "P(less than the first)": (
+        "less_than_first_probability",
+        lambda row: "" if row["place"] == 1 else f"{row['less_than_first_probability']:.2f}",
+    ),
+    "as good as the best": ("as_good_as_best", lambda row: row["as_good_as_best"]),
+    "cost": ("relative_cost", lambda row: f"{row['relative_cost']:g}"),
+    "saving (%)": ("saving_percent", lambda row: f"{row['saving_percent']:.1f}"),
+    "saving, 90 % (%)": ("saving_percent_low90", lambda row: span(row, "saving_percent", ".1f")),
+    "efficient": ("efficient", lambda row: row["efficient"]),
+    "P(efficient)": ("efficient_probability", lambda row: f"{row['efficient_probability']:.2f}"),
+}
+"""Heads of the ranking on the page, each with the column that it needs and the text of a row."""
+
+
+def span(row: Mapping[str, Any], name: str, form: str) -> str:
+    """Ends of a 90 % interval in a row.
+
+    >>> span({"place_low90": 1, "place_high90": 3}, "place", ".0f")
+    '1 to 3'
+    """
+    low, high = (format(row[f"{name}_{end}90"], form) for end in ("low", "high"))
+    return low if low == high else f"{low} to {high}"
 
 
 def _chart(results: Results) -> Any:
@@ -129,7 +183,7 @@ def content(results: Results) -> dict[str, Any]:
         "loss_table": loss_table(results),
         "surfaces": surface_rows(study),
         "cutoffs": cutoff_rows(results),
-        "band": BANDS.get(file.options.bands),
+        "band": band_words(results),
         "gears": input_rows(study, "gears"),
         "geometry": geometry_rows(study),
         "lubricant": input_rows(study, "lubricant"),

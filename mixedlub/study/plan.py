@@ -35,8 +35,9 @@ from mixedlub.rig.surface import Surface, mean_assumed, mean_over_rms, paired
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, report
 from mixedlub.schema.table_files import escaped
-from mixedlub.study.bands import Group, groups
+from mixedlub.study.bands import Group, groups, uncertain_inputs
 from mixedlub.study.chosen_effects import chosen_effects
+from mixedlub.study.costs import check_costs
 from mixedlub.study.friction_options import (
     check_coefficients,
     check_friction,
@@ -301,6 +302,7 @@ def _resolve(name: str, given: StudyFile, rig: Rig) -> Study:
         text = f"holds for contact ratios up to {MOST_CONTACT_RATIO:g}, not {pair.contact_ratio:.4g}; left out"
         report(finding("loss_factor_left_out", text, "loss_factor_H_V"))
     check_coefficients(options)
+    check_costs(file.costs, used)
     points = rig.mesh(options.path_points, options.face_slices)
     oil = rig.oil()
     check_oil(friction.find(options.friction), options.friction_coefficients, oil)
@@ -325,7 +327,7 @@ def _resolve(name: str, given: StudyFile, rig: Rig) -> Study:
         bare = Model(study_chain(options, {} if heights is None else heights.laws(), full), tuple(inputs), (LOSS,))
         inputs |= heat_inputs(bare, inputs, shape, points.position.size)
     active, parameters = chosen_effects(file, inputs, laws)
-    moved = groups(options.bands, rig, surfaces, chosen, surface_inputs)
+    moved = groups(options.bands, rig, surfaces, chosen, surface_inputs, uncertain_inputs(file), inputs)
     inputs |= rating_inputs(inputs, parameters)
     plan = Plan(inputs, options, parameters, shape, points.position.size, moved, heights, file.safety, laws, full)
     check_friction(file, plan.model())
