@@ -66,7 +66,7 @@ def ranking_drawn(tables: Mapping[str, pd.DataFrame]) -> Iterator[Drawn]:
         if "relative_cost" in ranked:
             text = (
                 "Mean power loss saved over the cheapest pairing against the cost of both finishes. The line joins the "
-                "pairings that no cheaper one undercuts in loss, the efficient frontier, with their places in the ranking."
+                "pairings that no cheaper one undercuts in loss: the efficient frontier, with places of the ranking."
             )
             bars = " Bars: 90 % intervals of the saving." if "saving_percent_low90" in ranked else ""
             yield Drawn("saving_over_cost", text + bars, cost_figure(ranked))

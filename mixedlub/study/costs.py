@@ -13,7 +13,7 @@ def check_costs(costs: Mapping[str, float], used: Collection[str]) -> None:
     """Raise an error for costs below zero, of surfaces in no pairing, or of some surfaces only."""
     for name, cost in costs.items():
         if name not in used:
-            raise InputError(f"no such surface in a pairing; {nearest(name, used)}", where="costs", value=name)
+            raise InputError(f"no such surface in a pairing; {nearest(name, used)}", where=f"costs.{name}")
         if cost < 0.0:
             raise InputError("a cost is 0 or above", where=f"costs.{name}", value=cost)
     lacking = [name for name in used if name not in costs]
