@@ -28,8 +28,9 @@ def gearbox_efficiency(file: str | PathLike[str]) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        Variables over (``torque_Nm``, ``speed_rpm``): losses (W) in total and by origin, tooth and gearbox efficiency
-        (percent; NaN at zero torque), and validity; ``part_loss_W`` over (``part``, ``torque_Nm``, ``speed_rpm``).
+        Variables over (``torque_Nm``, ``speed_rpm``), before them ``oil_temperature_C`` if the file has such levels:
+        losses (W) in total and by origin, tooth and gearbox efficiency (percent; NaN at zero torque), and validity;
+        ``part_loss_W`` also over ``part``.
 
     Raises
     ------
@@ -53,7 +54,8 @@ def gearbox_efficiency(file: str | PathLike[str]) -> xr.Dataset:
         losses = gearbox.map()
     warn_of([*losses.findings, *findings, *notes])
     levels = gearbox.file.conditions
-    shape, axes = (len(levels.torque_Nm), len(levels.speed_rpm)), ("torque_Nm", "speed_rpm")
+    axes = tuple(name for name in ("oil_temperature_C", "torque_Nm", "speed_rpm") if getattr(levels, name) is not None)
+    shape = tuple(len(getattr(levels, name)) for name in axes)
 
     def over(values: np.ndarray) -> tuple[tuple[str, ...], np.ndarray]:
         return axes, values.reshape(shape)
@@ -69,5 +71,5 @@ def gearbox_efficiency(file: str | PathLike[str]) -> xr.Dataset:
         "validity": over(np.array(losses.validity)),
     }
     names = [" ".join(filter(None, origin)) for origin in losses.by_origin]
-    coordinates = {"part": names, "torque_Nm": list(levels.torque_Nm), "speed_rpm": list(levels.speed_rpm)}
+    coordinates = {"part": names, **{name: list(getattr(levels, name)) for name in axes}}
     return xr.Dataset(variables, coordinates, {"title": gearbox.file.title})
