@@ -6,7 +6,6 @@ import multiprocessing
 import os
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import partial
-from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,11 +13,12 @@ import numpy as np
 
 from mixedlub.report.cutoff_table import cutoff_rows
 from mixedlub.report.figures import Drawn, band_words, figures
+from mixedlub.report.html import PAGE as HTML
+from mixedlub.report.html import drawn_all, rendered, shown, start_of
 from mixedlub.report.interactive import EMBEDDING, PLACE, explorer
 from mixedlub.report.laws import laws_used
 from mixedlub.report.paper_figures import paper_figures
 from mixedlub.report.ranking import ranking_drawn
-from mixedlub.report.style import as_svg, save
 from mixedlub.report.surfaces import (
     height_notes,
     judgement,
@@ -28,7 +28,6 @@ from mixedlub.report.surfaces import (
     surface_rows,
     traced,
 )
-from mixedlub.running.parallel import as_done
 from mixedlub.schema.findings import Finding, grouped
 from mixedlub.schema.section import FileTable, Key, table
 from mixedlub.study import counted, factors
@@ -48,8 +47,6 @@ if TYPE_CHECKING:
 MOST_SURFACES = 12
 MOST_RANKED = 60
 """Largest number of rows of the ranking on the page."""
-MOST_GIVEN = 200_000
-"""Largest number of characters of the study file on the page."""
 
 
 def write_page(
@@ -68,8 +65,6 @@ def write_page(
     ``given``: study file as text. ``as_in_paper``: add files of the figures in the style of the paper. ``ranked``:
     tables of the ranking, if they are known. ``doing``: called with the next step.
     """
-    from jinja2 import Environment
-
     drawings = folder / "figures"
     drawings.mkdir()
     study = results.study
@@ -78,25 +73,16 @@ def write_page(
     ranked = ranking_tables(results) if ranked is None else ranked
     drawn = [*ranking_drawn(ranked), *surface_figures(study, profiles, judged), *figures(results)]
     printed = list(paper_figures(results)) if as_in_paper else []
-    tasks: list[Callable[[], Any]] = [partial(_chart, results)]
-    tasks += [partial(_saved, one, drawings, formats) for one in (*drawn, *printed)]
-    made: dict[int, Any] = {}
-    for place, one in as_done(lambda task: task(), tasks):
-        made[place] = one
-        doing(f"drawing: {len(made)} of {len(tasks)} figures")
-    chart, *svgs = (made[place] for place in range(len(tasks)))
-    shown = [{"name": one.name, "caption": one.caption, "svg": svg} for one, svg in zip(drawn, svgs)]
+    svgs, (chart,) = drawn_all([*drawn, *printed], drawings, formats, doing, partial(_chart, results))
     files_of = [{"file": f"{one.name}.{formats[0]}", "caption": one.caption} for one in printed]
-    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    template = environment.from_string(files("mixedlub.report").joinpath("template.html").read_text(encoding="utf-8"))
     normal = study.plan.options.heights == "gaussian"
     of_heights = [*(not_gaussian(judged) if normal else []), *height_notes(profiles, judged, normal)]
-    texts = {"notes": grouped([*notes, *of_heights]), "provenance": provenance(study), "given": _start(given)}
+    texts = {"notes": grouped([*notes, *of_heights]), "provenance": provenance(study)}
+    texts["given"] = start_of(given, "study.toml")
     embedded = {"chart": chart, "place": PLACE, "embedding": {**EMBEDDING, "downloadFileName": study.name}}
-    page = template.render(
-        **content(results), **texts, **embedded, figures=shown, printed=files_of, ranking=ranking_rows(ranked)
-    )
-    (folder / "index.html").write_text(page, encoding="utf-8")
+    parts = {"figures": shown(drawn, svgs), "printed": files_of, "ranking": ranking_rows(ranked)}
+    page = rendered("template.html", **content(results), **texts, **embedded, **parts)
+    (folder / HTML).write_text(page, encoding="utf-8")
     return of_heights
 
 
@@ -148,22 +134,6 @@ def _chart(results: Results) -> Any:
     if multiprocessing.parent_process() is not None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
     return explorer(results)
-
-
-def _start(given: str) -> str:
-    """Beginning of the study file, as far as the page has room."""
-    if len(given) <= MOST_GIVEN:
-        return given
-    return f"{given[:MOST_GIVEN]}\n\n[The first {MOST_GIVEN} of {len(given)} characters; study.toml has all.]"
-
-
-def _saved(drawn: Drawn, folder: Path, formats: Sequence[str]) -> str:
-    """A figure as SVG, after writing its files."""
-    svg = as_svg(drawn.figure)
-    for form in formats:
-        path = folder / f"{drawn.name}.{form}"
-        path.write_text(svg, encoding="utf-8") if form == "svg" else save(drawn.figure, path)
-    return svg
 
 
 def content(results: Results) -> dict[str, Any]:

@@ -29,8 +29,20 @@ def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_it_writes_tables_and_figures(out: Path) -> None:
     assert {path.stem for path in out.glob("*.csv")} == TABLES | {"duty", "duty_summary"}
     assert {path.name for path in (out / "figures").iterdir()} == {
-        *("map.svg", "breakdown.svg", "mesh_cycle.svg", "tooth_pair.svg", "efficiency.svg")
+        *("map.svg", "breakdown.svg", "mesh_cycle.svg", "tooth_pair.svg", "efficiency.svg", "loss_torque.svg")
     }
+
+
+def test_the_page_holds_all_figures_tables_and_inputs(out: Path) -> None:
+    page = (out / "index.html").read_text(encoding="utf-8")
+    for name in ("map", "breakdown", "efficiency", "loss_torque", "mesh_cycle", "tooth_pair"):
+        assert f'<figure id="{name}">' in page
+    for text in ("Mesh a", "Mesh b", "Where the input drives", "duty cycle:", "Breakdown"):
+        assert text in page
+    assert "http" not in page.replace("http://www.w3.org", "").replace("https://doi.org", "")
+    last = pd.read_csv(out / "stages.csv")["stage_loss_W"].iloc[0]
+    assert f"<td>{last:.5g}</td>" in page
+    assert (out / "efficiency.toml").read_text(encoding="utf-8") == (out.parent / "efficiency.toml").read_text("utf-8")
 
 
 def test_columns_have_their_unit(out: Path) -> None:
