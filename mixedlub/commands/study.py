@@ -74,7 +74,7 @@ def command(
         ranked = ranking_tables(results)
         tables = {"results": results.long_table(), "fits": fits_table(results), **ranked}
         columns = {"results": every_column(study.plan.losing), "fits": fit_columns(), "curves": curve_columns()}
-        columns |= {"ranking": RANKING, "comparisons": COMPARISONS}
+        columns |= {"ranking": list(RANKING), "comparisons": list(COMPARISONS)}
         if curves:
             tables["curves"] = curve_table(study)
         result = Result(

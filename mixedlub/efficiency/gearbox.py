@@ -175,8 +175,7 @@ class Gearbox:
         oil = np.repeat(list(self.at_oil), torque.size)
         each = [box.losses(torque.ravel(), speed.ravel()) for box in self.at_oil.values()]
         found = _joined([(oil == at, (one.by_origin, one.reached)) for at, one in zip(self.at_oil, each, strict=True)])
-        every = (np.tile(values.ravel(), len(each)) for values in (torque, speed))
-        return Losses(self, *every, *found, oil=oil)
+        return Losses(self, np.tile(torque.ravel(), len(each)), np.tile(speed.ravel(), len(each)), *found, oil)
 
     def at_cycle(self) -> Losses:
         """Losses at the condition of the mesh cycle, with a torque above 0."""

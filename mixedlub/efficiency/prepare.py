@@ -91,9 +91,8 @@ def _stages(
         section, own = sections[name], {part: load for (stage, part), load in loads.items() if stage == name}
         oil = oil_state(study.oil, section.oil_temperature_C + ZERO_CELSIUS)
         parts = tuple(parts_of(section, study.pair, own, f"{path}: stages.{name}"))
-        stages[name] = StageModel(name, section.driving, study, oil, parts)
-        if coast:
-            stages[name] = replace(stages[name], driving=stages[name].driven)
+        stage = StageModel(name, section.driving, study, oil, parts)
+        stages[name] = replace(stage, driving=stage.driven) if coast else stage
         notes += study.notes
         for part in parts:
             notes += bearing_findings(part, study.pair, oil, f"stages.{name}", idles=idles)

@@ -92,7 +92,8 @@ def ranking_rows(ranked: Mapping[str, pd.DataFrame]) -> dict[str, Any] | None:
     if len(table) < 2:
         return None
     chosen = {head: write for head, (needs, write) in RANKED.items() if needs in table}
-    rows = [[write(row) for write in chosen.values()] for row in table.head(MOST_RANKED).to_dict("records")]
+    records: list[Any] = table.head(MOST_RANKED).to_dict("records")
+    rows = [[write(row) for write in chosen.values()] for row in records]
     good = table["as_good_as_best"].eq("yes") if "as_good_as_best" in table else table["place"] == 1
     return {"heads": list(chosen), "rows": list(zip(good, rows)), "count": len(table), "good": int(good.sum())}
 

@@ -128,11 +128,12 @@ def probabilities_figure(ranked: pd.DataFrame, compared: pd.DataFrame) -> Figure
     shown = ranked.head(WRITTEN)
     row_of = {both: i for i, both in enumerate(shown[PAIRING].itertuples(index=False, name=None))}
     values = np.full((len(shown), len(shown)), np.nan)
-    for row in compared.itertuples():
-        a = row_of.get((row.pinion_surface, row.gear_surface))
-        b = row_of.get((row.other_pinion_surface, row.other_gear_surface))
+    known = compared["less_probability"].to_numpy()
+    sides = (compared[[f"{other}{name}" for name in PAIRING]].to_numpy() for other in ("", "other_"))
+    for first, second, less in zip(*sides, known, strict=True):
+        a, b = row_of.get(tuple(first)), row_of.get(tuple(second))
         if a is not None and b is not None:
-            values[a, b], values[b, a] = row.less_probability, 1.0 - row.less_probability
+            values[a, b], values[b, a] = less, 1.0 - less
     names = pairing_names(shown)
     figure = Figure(figsize=(WIDTH, 1.9 + 0.28 * len(shown)), layout="constrained")
     axes: Any = figure.subplots()

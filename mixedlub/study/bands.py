@@ -219,14 +219,12 @@ def band(found: Sequence[tuple[Values, Sequence[tuple[Values, Values]]]], output
 
 def losses_at_ends(found: Sequence[tuple[Values, Sequence[tuple[Values, Values]]]]) -> dict[str, Any]:
     """Power loss of every group and at both ends of every axis, by `loss_name`."""
-    return {
-        loss_name(group, *at): values["power_loss"]
-        for group, (own, axes) in enumerate(found)
-        for at, values in (
-            ((), own),
-            *(((axis, end), one) for axis, both in enumerate(axes) for end, one in zip((LOW, HIGH), both)),
-        )
-    }
+    named: dict[str, Any] = {}
+    for group, (own, axes) in enumerate(found):
+        named[loss_name(group)] = own["power_loss"]
+        for axis, ends in enumerate(axes):
+            named |= {loss_name(group, axis, end): one["power_loss"] for end, one in zip((LOW, HIGH), ends)}
+    return named
 
 
 def loss_name(group: int, axis: int | None = None, end: str = "") -> str:
