@@ -166,7 +166,7 @@ def cost_figure(ranked: pd.DataFrame) -> Figure:
     axes.step(cost[on][order], saving[on][order], where="post", color=DARK, linewidth=1.0)
     for row in ranked[on].itertuples():
         place = (row.relative_cost, row.saving_percent)
-        axes.annotate(str(row.place), place, (4, 4), textcoords="offset points", fontsize=SMALL)
+        axes.annotate(str(row.place), place, (-3, 4), textcoords="offset points", fontsize=SMALL, ha="right")
     axes.set_xlabel("relative cost of both finishes (-)")
     axes.set_ylabel("loss saved over the cheapest (%)")
     axes.margins(x=0.05, y=0.08)

@@ -16,6 +16,7 @@ from mixedlub.efficiency import read_gearbox
 from mixedlub.efficiency.table import duty_summary, loss_map, map_table
 from profiles.errors import InputError
 from tests.efficiency.gearboxes import AFTER, PARTS, STAGE, gearbox, gearbox_file, written
+from tests.efficiency.planetary import SIMPLE, mesh, planetary_box
 
 COAST = {"torque_Nm": [-200.0, -50.0, 0.0, 50.0, 200.0], "speed_rpm": [500.0, 3000.0]}
 
@@ -70,6 +71,35 @@ def test_a_thrust_that_coast_leaves_uncarried_is_one_sentence(tmp_path: Path) ->
         InputError, match="no bearing takes the axial force, which points to the positive side in coast"
     ):
         gearbox(tmp_path, stage, conditions=COAST)
+
+
+def test_a_planetary_stage_coasts_with_input_and_output_exchanged(tmp_path: Path) -> None:
+    box = planetary_box(tmp_path, SIMPLE, conditions=COAST)
+    found = box.losses(np.array([-100.0]), np.array([200.0]))
+    section = SIMPLE | {"input": box.stages[0].driven, "output": box.stages[0].driving}
+    turned = planetary_box(tmp_path, section)
+    speed = found.speed / box.ratio
+    there = turned.losses(-found.output_power / speed, speed)
+    assert there.total() == pytest.approx(found.total(), rel=1e-5)
+    assert there.output_power == pytest.approx(np.array([100.0 * 200.0]), rel=1e-5)
+
+
+def test_a_train_that_locks_in_coast_is_one_sentence(tmp_path: Path) -> None:
+    meshes = {
+        "first": mesh("a", "planet", teeth=(50, 49), normal_module_mm=1.0),
+        "second": mesh("planet", "b", teeth=(50, 51), normal_module_mm=0.98, centre_distance_mm=49.5),
+    }
+    stage = SIMPLE | {
+        "input": "carrier",
+        "output": "a",
+        "fixed": "b",
+        "planet_count": 1,
+        "meshes": meshes,
+        "others": {},
+    }
+    box = planetary_box(tmp_path, stage, conditions=COAST)
+    with pytest.raises(InputError, match="in coast the losses take all power of the output"):
+        box.losses(np.array([-0.002]), np.array([125.0]))
 
 
 def test_an_axis_of_oil_temperature_has_the_numbers_of_a_file_at_each(tmp_path: Path) -> None:
