@@ -39,7 +39,7 @@ class Losses:
     """Losses of a gearbox at N conditions of its input, in SI.
 
     ``torque``, ``speed``: at the input, torque below zero in coast; ``by_origin``: losses (W); ``reached``: limits with
-    values, by place in the file; ``oil``: temperature of the oil of all stages (degC), None for that of each stage.
+    values, by place in the file; ``oil``: temperature of the oil of all stages (degC), None if stages differ.
     """
 
     gearbox: Gearbox
@@ -137,7 +137,7 @@ class Gearbox:
         return Losses(self, torque, speed, *_joined(parts))
 
     def _coasting(self, torque: np.ndarray, speed: np.ndarray) -> Found:
-        """Losses where the output drives: its power is that of the input and all losses, which depend on it."""
+        """Losses where the output drives: it takes in the power of the input plus all losses, which depend on it."""
         if self.coasting is None:
             raise InputError("below 0, where the output drives; name them in the file", where="torque of the input")
         delivered, turning = -torque * speed, speed / self.ratio

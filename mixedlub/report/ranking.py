@@ -59,7 +59,7 @@ def ranking_drawn(tables: Mapping[str, pd.DataFrame]) -> Iterator[Drawn]:
         if "comparisons" in tables:
             count = min(len(ranked), WRITTEN)
             text = (
-                "Probability that the pairing of the row loses less, mean over all conditions, than that of the column"
+                "Probability that the pairing of the row has the smaller mean loss, against the pairing of the column"
                 + (f": the best {count} of {len(ranked)} pairings." if count < len(ranked) else ".")
             )
             yield Drawn("ranking_probabilities", text, probabilities_figure(ranked, tables["comparisons"]))
@@ -122,7 +122,7 @@ def _ends(table: pd.DataFrame, name: str) -> tuple[np.ndarray, np.ndarray] | Non
 
 
 def probabilities_figure(ranked: pd.DataFrame, compared: pd.DataFrame) -> Figure:
-    """Map of the probability that the pairing of the row loses less than that of the column."""
+    """Map of the probability that the pairing of the row loses less than the pairing of the column."""
     from matplotlib.figure import Figure
 
     shown = ranked.head(WRITTEN)

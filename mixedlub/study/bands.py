@@ -39,7 +39,7 @@ Values = Mapping[str, Any]
 
 
 Cause = tuple[int, int] | str
-"""Side and place of an axis among those of the surface on that side, or the name of an uncertain input."""
+"""Side of a pairing and place of an axis of its surface, or the name of an uncertain input."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +61,7 @@ class Group:
 
 
 def uncertain_inputs(file: StudyFile) -> dict[str, float]:
-    """Standard deviations of inputs common to all pairings; raises an error for those of oil in full solutions."""
+    """Standard deviations of inputs common to all pairings; raises an error for uncertain oil in full solutions."""
     found = file.uncertainty.stated
     for name in OF_OIL if file.options.base == "full_solution" else ():
         if name in found:
@@ -129,7 +129,7 @@ def _stated(
     pairings: Sequence[tuple[str, str]],
     inputs: Callable[[Pairs], Values],
 ) -> Axis:
-    """Axis of an uncertain input, at both ends of its 90 % interval; the other inputs are those of the group."""
+    """Axis of an uncertain input, at both ends of its 90 % interval; other inputs as in the group."""
     if name == ROUGHNESS:
         step = 2.0 * REACH * sd
         low, high = (

@@ -32,7 +32,7 @@ def pairing_costs(costs: Mapping[str, float], pairings: Sequence[tuple[str, str]
 
 
 def reference(cost: np.ndarray, loss: np.ndarray) -> int:
-    """Index of the cheapest pairing; of several the one that loses least.
+    """Index of the cheapest pairing; of several, the pairing with the smallest loss.
 
     >>> reference(np.array([2.0, 1.0, 1.0]), np.array([5.0, 9.0, 8.0]))
     2

@@ -1,4 +1,4 @@
-"""Draws of the mean loss of every pairing from the bands of a study, with what pairings share drawn once.
+"""Draws of the mean loss of every pairing from the bands of a study, with common errors drawn once.
 
 The loss at both ends of every axis is a result of the study. Between the ends the logarithm of the loss is linear in
 the drawn change on each side of the middle, so that no condition is computed again.
@@ -100,7 +100,7 @@ def _log_mean(results: Results, name: str) -> np.ndarray:
 
 
 def _between(factors: Sequence[float], logs: Sequence[np.ndarray], random: np.random.Generator) -> np.ndarray:
-    """Values at drawn short cut-offs, linear in the logarithm between those of the groups."""
+    """Values at drawn short cut-offs, linear in the logarithm between the groups."""
     if len(logs) == 1:
         return logs[0]
     order = np.argsort(factors)

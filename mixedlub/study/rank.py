@@ -26,7 +26,7 @@ UNSOUND = 2
 """Definition. Least grade of a condition outside the range of the laws that forbids numbers."""
 ENDS = (0.05, 0.95)
 LEAST_CHANCE = 0.05
-"""Definition. Probability of losing less than the best pairing from which a pairing is as good: that of an end of a
+"""Definition. Least probability of losing less than the best pairing for a pairing to be as good: beyond one end of a
 90 % interval."""
 MOST_COMPARED = 60
 """Cost limit. Number of pairings that are compared in twos, the best ones: 1770 rows."""
@@ -37,7 +37,7 @@ RANKING = described(
     mean_loss_W="power loss, mean over all conditions",
     mean_loss_W_low90="lower end of its 90 % interval",
     mean_loss_W_high90="upper end of it",
-    over_best_percent="mean power loss over that of the first place, less 1",
+    over_best_percent="excess of the mean power loss over the first place",
     place_low90="lower end of the 90 % interval of the place",
     place_high90="upper end of it",
     best_probability="probability that no other pairing loses less",
@@ -52,14 +52,14 @@ RANKING = described(
     efficient="text: yes where every other pairing that loses less costs more",
     efficient_probability="probability of the same",
 )
-"""Columns of the table of a ranking; those of uncertainty need bands, those of costs need costs."""
+"""Columns of the table of a ranking; intervals and probabilities need bands, savings need costs."""
 COMPARISONS = described(
     pinion_surface="text: surface of the pinion",
     gear_surface="text: surface of the gear",
     other_pinion_surface="text: surface of the other pairing's pinion",
     other_gear_surface="text: surface of the other pairing's gear",
     less_probability="probability that the pairing loses less than the other",
-    saved_W="power loss of the other less its own, mean over all conditions",
+    saved_W="power loss of the other pairing less the power loss of the pairing, mean over all conditions",
     saved_W_low90="lower end of the 90 % interval",
     saved_W_high90="upper end of it",
 )
@@ -171,12 +171,12 @@ def _words(chosen: np.ndarray) -> np.ndarray:
 
 
 def _less(draws: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """Share of the draws below those of another; equal ones, as of a pairing with itself, count half."""
+    """Share of the draws below the draws of another pairing; equal draws count half."""
     return np.asarray((draws < other).mean(axis=0) + 0.5 * (draws == other).mean(axis=0))
 
 
 def probabilities(draws: np.ndarray) -> np.ndarray:
-    """Probability that the pairing of the row loses less than that of the column; one half on the diagonal.
+    """Probability that the pairing of the row loses less than the pairing of the column; one half on the diagonal.
 
     >>> probabilities(np.array([[1.0, 2.0], [1.0, 0.5], [1.0, 3.0], [1.0, 4.0]])).tolist()
     [[0.5, 0.75], [0.25, 0.5]]
@@ -185,7 +185,7 @@ def probabilities(draws: np.ndarray) -> np.ndarray:
 
 
 def comparisons(results: Results, draws: np.ndarray) -> pd.DataFrame:
-    """Every two of the best pairings, the one with the smaller mean loss first: probability and saving."""
+    """Every two of the best pairings, smaller mean loss first: probability and saving."""
     import pandas as pd
 
     study = results.study
