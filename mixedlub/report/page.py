@@ -87,37 +87,54 @@ def write_page(
 
 
 def ranking_rows(ranked: Mapping[str, pd.DataFrame]) -> dict[str, Any] | None:
-    """Heads and rows of the ranking on the page, the best first; None for one pairing."""
+    """Ranking on the page, the best first: tables of loss and of cost; None for one pairing."""
     table = ranked["ranking"]
     if len(table) < 2:
         return None
-    chosen = {head: write for head, (needs, write) in RANKED.items() if needs in table}
     records: list[Any] = table.head(MOST_RANKED).to_dict("records")
-    rows = [[write(row) for write in chosen.values()] for row in records]
     good = table["as_good_as_best"].eq("yes") if "as_good_as_best" in table else table["place"] == 1
-    return {"heads": list(chosen), "rows": list(zip(good, rows)), "count": len(table), "good": int(good.sum())}
+    shown = []
+    for heads in (OF_LOSS, OF_COST):
+        chosen = {head: write for head, (needs, write) in heads.items() if needs in table}
+        rows = [[write(row) for write in chosen.values()] for row in records]
+        shown.append({"heads": list(chosen), "rows": list(zip(good, rows))})
+    uncertain, costs = "place_low90" in table, "relative_cost" in table
+    return {
+        "tables": shown if costs else shown[:1],
+        "uncertain": uncertain,
+        "rows": len(records),
+        "count": len(table),
+        "good": int(good.sum()),
+    }
 
 
-RANKED: Mapping[str, tuple[str, Callable[[Mapping[str, Any]], str]]] = {
+Written = tuple[str, Callable[[Mapping[str, Any]], str]]
+"""Column of the ranking that a head of the page needs, and the text of a row."""
+OF_PAIRING: Mapping[str, Written] = {
     "place": ("place", lambda row: str(row["place"])),
     "pinion / gear": ("place", lambda row: f"{row['pinion_surface']} / {row['gear_surface']}"),
+}
+OF_LOSS: Mapping[str, Written] = {
+    **OF_PAIRING,
     "mean loss (W)": ("place", lambda row: f"{row['mean_loss_W']:.4g}"),
-    "90 % (W)": ("mean_loss_W_low90", lambda row: span(row, "mean_loss_W", ".4g")),
-    "over the first (%)": ("place", lambda row: f"{row['over_best_percent']:.1f}"),
+    "90 % interval (W)": ("mean_loss_W_low90", lambda row: span(row, "mean_loss_W", ".4g")),
+    "over first (%)": ("place", lambda row: f"{row['over_best_percent']:.1f}"),
     "places (90 %)": ("place_low90", lambda row: span(row, "place", ".0f")),
     "P(best)": ("best_probability", lambda row: f"{row['best_probability']:.2f}"),
-    "P(less than the first)": (
+    "P(less than first)": (
         "less_than_first_probability",
         lambda row: "" if row["place"] == 1 else f"{row['less_than_first_probability']:.2f}",
     ),
     "as good as the best": ("as_good_as_best", lambda row: row["as_good_as_best"]),
-    "cost": ("relative_cost", lambda row: f"{row['relative_cost']:g}"),
-    "saving (%)": ("saving_percent", lambda row: f"{row['saving_percent']:.1f}"),
-    "saving, 90 % (%)": ("saving_percent_low90", lambda row: span(row, "saving_percent", ".1f")),
+}
+OF_COST: Mapping[str, Written] = {
+    **OF_PAIRING,
+    "relative cost": ("relative_cost", lambda row: f"{row['relative_cost']:g}"),
+    "loss saved over the cheapest (%)": ("saving_percent", lambda row: f"{row['saving_percent']:.1f}"),
+    "90 % interval (%)": ("saving_percent_low90", lambda row: span(row, "saving_percent", ".1f")),
     "efficient": ("efficient", lambda row: row["efficient"]),
     "P(efficient)": ("efficient_probability", lambda row: f"{row['efficient_probability']:.2f}"),
 }
-"""Heads of the ranking on the page, each with the column that it needs and the text of a row."""
 
 
 def span(row: Mapping[str, Any], name: str, form: str) -> str:

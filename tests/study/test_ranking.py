@@ -5,6 +5,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from mixedlub.report.page import ranking_rows
+from mixedlub.report.ranking import ranking_drawn
 from mixedlub.study import ranking, read_study, run_study
 from mixedlub.study.costs import efficient
 from mixedlub.study.draws import loss_draws
@@ -184,6 +186,23 @@ def test_costs_give_a_saving_over_the_cheapest_pairing(write_study):
     assert best["saving_percent"] == pytest.approx(100 * (1 - best["mean_loss_W"] / cheapest["mean_loss_W"]))
     assert best["efficient"] == "yes"
     assert ((found["efficient_probability"] > 0.5) == (found["efficient"] == "yes")).all()
+
+
+def test_the_page_has_the_ranking_and_the_saving(write_study):
+    costs = {"fine": 3.0, "mid": 1.5, "coarse": 1.0}
+    tables = ranking_tables(run_study(read_study(write_study(costs=costs, uncertainty={"viscosity": 0.06}))))
+    shown = ranking_rows(tables)
+    of_loss, of_cost = shown["tables"]
+    first = tables["ranking"].iloc[0]
+    good, cells = of_loss["rows"][0]
+    assert good
+    assert cells[:3] == ["1", "fine / fine", f"{first['mean_loss_W']:.4g}"]
+    assert of_cost["rows"][0][1][2] == "6"
+    names = [one.name for one in ranking_drawn(tables)]
+    assert names == ["ranking", "ranking_probabilities", "saving_over_cost"]
+    alone = ranking_tables(run_study(read_study(write_study(name="alone", surfaces={"fine": FIRM}))))
+    assert ranking_rows(alone) is None
+    assert not list(ranking_drawn(alone))
 
 
 @pytest.mark.parametrize(
