@@ -287,11 +287,14 @@ def _study_columns() -> str:
     from mixedlub.study.columns import every_column
     from mixedlub.study.curves import curve_columns
     from mixedlub.study.fits import fit_columns
+    from mixedlub.study.rank import COMPARISONS, RANKING
 
     return md.columns(
         {
             "results.csv, results.parquet": every_column(["EFFECT"], bands=False),
             "fits.csv": fit_columns(),
+            "ranking.csv": RANKING,
+            "comparisons.csv": COMPARISONS,
             "curves.parquet, curves.csv": curve_columns(),
         }
     )

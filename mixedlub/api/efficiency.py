@@ -30,10 +30,10 @@ def gearbox_efficiency(file: str | PathLike[str]) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        Variables over (``torque_Nm``, ``speed_rpm``): losses (W) in total and by origin, tooth and gearbox efficiency
-        (percent; NaN at zero torque), and validity; ``part_loss_W`` over (``part``, ``torque_Nm``, ``speed_rpm``). With
-        ``[thermal]`` also ``sump_temperature_C`` (NaN without a balance), ``balanced_loss_W`` and
-        ``balanced_efficiency_percent`` at that temperature.
+        Variables over (``torque_Nm``, ``speed_rpm``), before them ``oil_temperature_C`` if the file has such levels:
+        losses (W) in total and by origin, tooth and gearbox efficiency (percent; NaN at zero torque), and validity;
+        ``part_loss_W`` also over ``part``. With ``[thermal]`` also ``sump_temperature_C`` (NaN without a balance),
+        ``balanced_loss_W`` and ``balanced_efficiency_percent`` at that temperature.
 
     Raises
     ------
@@ -58,7 +58,8 @@ def gearbox_efficiency(file: str | PathLike[str]) -> xr.Dataset:
         balance = None if gearbox.file.thermal is None else ThermalModel(gearbox).at_map()
     warn_of([*losses.findings, *findings, *notes, *(() if balance is None else balance.findings)])
     levels = gearbox.file.conditions
-    shape, axes = (len(levels.torque_Nm), len(levels.speed_rpm)), ("torque_Nm", "speed_rpm")
+    axes = tuple(name for name in ("oil_temperature_C", "torque_Nm", "speed_rpm") if getattr(levels, name) is not None)
+    shape = tuple(len(getattr(levels, name)) for name in axes)
 
     def over(values: np.ndarray) -> tuple[tuple[str, ...], np.ndarray]:
         return axes, values.reshape(shape)
@@ -80,5 +81,5 @@ def gearbox_efficiency(file: str | PathLike[str]) -> xr.Dataset:
             "balanced_efficiency_percent": over(100.0 * balance.losses.efficiency()),
         }
     names = [" ".join(filter(None, origin)) for origin in losses.by_origin]
-    coordinates = {"part": names, "torque_Nm": list(levels.torque_Nm), "speed_rpm": list(levels.speed_rpm)}
+    coordinates = {"part": names, **{name: list(getattr(levels, name)) for name in axes}}
     return xr.Dataset(variables, coordinates, {"title": gearbox.file.title})

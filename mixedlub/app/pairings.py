@@ -17,6 +17,8 @@ from profiles.errors import InputError
 
 PAGE = "pairings"
 RESULT, RANKING, MAP, STUDY = "result", "ranking.json", "map.svg", "study.toml"
+FIGURES = ("ranking", "ranking_probabilities", "saving_over_cost")
+"""Figures of the study that the page shows beside the map."""
 
 router = APIRouter()
 pages = APIRouter(include_in_schema=False)
@@ -36,7 +38,7 @@ def run(desk: Desk, item: Item, study: dict[str, Any]) -> dict[str, Any]:
 
 async def ranking(desk: Desk, item: Item) -> list[dict[str, Any]]:
     """Ranking of the last result; empty before one."""
-    if desk.jobs.state(item).get("state") != DONE or not (item.folder / RESULT / "results.parquet").is_file():
+    if desk.jobs.state(item).get("state") != DONE or not (item.folder / RESULT / "ranking.parquet").is_file():
         return []
     if not (item.folder / RANKING).is_file():
         found = await desk.worker.call(study_form.ranked, item.folder / RESULT)
@@ -77,6 +79,7 @@ async def _shown(desk: Desk, item: Item | None, texts: dict[str, str], error: st
         shipped=study_form.SHIPPED,
         places=study_form.PLACES,
         ranking=rows,
+        figures=[] if item is None else [f for f in FIGURES if (item.folder / RESULT / f"figures/{f}.svg").is_file()],
         has_page=item is not None and (item.folder / RESULT / "index.html").is_file(),
         error=error,
     )

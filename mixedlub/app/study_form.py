@@ -13,6 +13,8 @@ from mixedlub.schema.gear_file import gear_names, shipped_gears
 from mixedlub.schema.oil_file import STOCKS, oil_names, shipped_oil
 from mixedlub.schema.section import Key, table
 from mixedlub.schema.toml_file import parse, to_toml, toml_value
+from mixedlub.study.costs import check_costs
+from mixedlub.study.plan import pairings_of
 from mixedlub.study.schema import StudyFile
 from profiles.errors import InputError
 
@@ -20,6 +22,7 @@ GEARS = ("teeth", "normal_module_mm", "face_width_mm", "pressure_angle_deg", "he
 OIL = ("temperature_C", "kinematic_viscosity_mm2_s")
 CONDITIONS = ("torque_Nm", "speed_rpm", "oil_temperature_C")
 OPTIONS = ("friction", "bands")
+UNCERTAIN = ("boundary_friction", "viscosity", "pressure_viscosity", "eyring_stress")
 CUTOFFS = ("cutoff_mm", "short_cutoff_um")
 PLACES = ("both", "pinion", "gear", "neither")
 """Wheels that a surface may have."""
@@ -33,6 +36,7 @@ START = {
     "conditions.oil_temperature_C": "60",
     "surfaces.cutoff_mm": "0.8",
     "surfaces.short_cutoff_um": "2.5",
+    "options.bands": "traces",
     "place.shipped:0036": "both",
     "place.shipped:0258": "both",
     "place.shipped:0450": "both",
@@ -45,6 +49,7 @@ Texts = Mapping[str, str]
 def inputs() -> dict[str, list[dict[str, Any]]]:
     """Inputs of the form by section: key, text, example and choices, as the study file describes them."""
     sections = {"gears": GEARS, "lubricant": OIL, "surfaces": CUTOFFS, "conditions": CONDITIONS, "options": OPTIONS}
+    sections["uncertainty"] = UNCERTAIN
     found = {
         section: [_input(section, table(StudyFile, section)[name]) for name in names]
         for section, names in sections.items()
@@ -90,7 +95,7 @@ def study_of(texts: Texts, files: Mapping[str, str]) -> dict[str, Any]:
     oil = texts.get("oil", "")
     stock = oil.removeprefix("base:")
     lubricant: dict[str, Any] = {} if not oil else {"base": stock} if stock != oil else {"oil": oil}
-    surfaces, pinion, gear = _surfaces(texts, files)
+    surfaces, pinion, gear, costs = _surfaces(texts, files)
     return {
         "schema": "mixedlub-study/1",
         "title": texts.get("title") or "Pairings",
@@ -101,22 +106,26 @@ def study_of(texts: Texts, files: Mapping[str, str]) -> dict[str, Any]:
         "pairings": {"every": pinion} if pinion == gear else {"pinion": pinion, "gear": gear},
         "conditions": {name: _levels(texts.get(f"conditions.{name}", ""), name) for name in CONDITIONS},
         "options": _given(texts, "options", OPTIONS),
+        "uncertainty": _given(texts, "uncertainty", UNCERTAIN),
+        "costs": costs,
     }
 
 
 def study_text(study: Mapping[str, Any]) -> str:
     """Study as the text of a file; an error for a wrong key or value."""
     refuse_foreign_files({name: value for name, value in study.items() if name not in ("title", "description")})
-    parse(StudyFile, study, "study")
+    file = parse(StudyFile, study, "study")
+    check_costs(file.costs, dict.fromkeys(name for both in pairings_of(file.pairings, file.surfaces) for name in both))
     return to_toml(study)
 
 
-def _surfaces(texts: Texts, files: Mapping[str, str]) -> tuple[dict[str, Any], list[str], list[str]]:
-    """Surfaces by name, and the names of the pinion's and the gear's."""
+def _surfaces(texts: Texts, files: Mapping[str, str]) -> tuple[dict[str, Any], list[str], list[str], dict[str, Any]]:
+    """Surfaces by name, the names of the pinion's and the gear's, and costs by name."""
     filters = _given(texts, "surfaces", CUTOFFS)
     every = {f"shipped:{name}": ("profile", f"shipped:{name}") for name in SHIPPED}
     every |= {name: (key, f"uploads/{name}") for name, key in files.items()}
     found: dict[str, Any] = {}
+    costs: dict[str, Any] = {}
     wheels: dict[str, list[str]] = {"pinion": [], "gear": []}
     for name, (key, path) in every.items():
         place = texts.get(f"place.{name}", "neither")
@@ -125,13 +134,15 @@ def _surfaces(texts: Texts, files: Mapping[str, str]) -> tuple[dict[str, Any], l
         known = name.removeprefix("shipped:").rpartition(".")[0] or name.removeprefix("shipped:")
         known = known if known not in found else name
         found[known] = {key: path, **filters}
+        if cost := texts.get(f"cost.{name}", "").strip():
+            costs[known] = value_of(cost)
         for wheel, names in wheels.items():
             if place in ("both", wheel):
                 names.append(known)
     for wheel, names in wheels.items():
         if not names:
             raise InputError("choose at least one surface, or send a trace", where=f"surfaces of the {wheel}")
-    return found, wheels["pinion"], wheels["gear"]
+    return found, wheels["pinion"], wheels["gear"], costs
 
 
 def _given(texts: Texts, section: str, names: Sequence[str]) -> dict[str, Any]:
@@ -167,7 +178,6 @@ def ranked(result: Path) -> dict[str, Any]:
 
     from mixedlub.report.ranking import ranking_map
     from mixedlub.report.style import as_svg
-    from mixedlub.study.rank import ranking
 
-    found = ranking(pd.read_parquet(result / "results.parquet"))
+    found = pd.read_parquet(result / "ranking.parquet")
     return {"rows": found.to_dict("records"), "map": as_svg(ranking_map(found))}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -10,7 +10,8 @@ import typer
 
 from mixedlub.commands.console import busy, input_errors_from, print_findings
 from mixedlub.commands.deliver import How, deliver, delivers
-from mixedlub.running.origin import origin_of_file
+from mixedlub.running.origin import is_same, origin_of_file
+from mixedlub.schema.findings import Finding
 from mixedlub.schema.result import Result
 
 if TYPE_CHECKING:
@@ -32,8 +33,8 @@ def command(
     One stage or several in series, of one gear pair or planetary, each with its oil, bearings, seals and wheels in oil
     and air: map.csv and loss_map.csv over torque and speed, losses.csv by part, breakdown.csv, stages.csv,
     mesh_cycle.csv and tooth_pair.csv at one condition, members.csv, rolling.csv, planets.csv and pairings.csv of
-    planetary stages, duty.csv of a duty cycle, and figures. With [thermal] also the sump temperature at which the
-    losses equal the heat that leaves: thermal.csv, and over the duty cycle thermal_duty.csv and thermal_history.csv.
+    planetary stages, duty.csv of a duty cycle, figures, and one page. With [thermal] also the sump temperature at
+    which the losses equal the heat that leaves: thermal.csv, thermal_duty.csv and thermal_history.csv.
     """
     import numpy as np
 
@@ -42,10 +43,12 @@ def command(
     from mixedlub.efficiency.mesh_cycle import mesh_cycles
     from mixedlub.efficiency.planetary_table import planetary_tables
     from mixedlub.report.efficiency import efficiency_figures
+    from mixedlub.report.gearbox_page import GIVEN, PAGE, write_gearbox_page
 
     with input_errors_from(str(file)):
         gearbox, findings = read_gearbox(file)
-        to = how.open(file.stem, origin_of_file(file), tables.TABLES)
+        given = file.read_bytes()
+        to = how.open(file.stem, origin_of_file(file), tables.TABLES, "file", PAGE, GIVEN)
         with busy("computing"):
             losses, at = gearbox.map(), gearbox.at_cycle()
             cycles = mesh_cycles(gearbox, at)
@@ -78,7 +81,21 @@ def command(
         lines += thermal_lines(heat)
     title, notes = gearbox.file.title, tuple(_notes(gearbox))
     figures = efficiency_figures(title, losses, cycles, made)
-    deliver(Result(title, made, figures, tuple(lines), notes, columns=tables.TABLES), to)
+    copy = {} if is_same(to.folder / GIVEN, file) else {GIVEN: given}
+
+    def page(aside: Path, doing: Callable[[str], None]) -> list[Finding]:
+        write_gearbox_page(
+            *(gearbox, losses, made, figures, aside),
+            notes=[*losses.findings, *findings],
+            lines=[*lines, *notes],
+            given=given.decode("utf-8-sig"),
+            formats=how.formats,
+            doing=doing,
+        )
+        return []
+
+    result = Result(title, made, figures, tuple(lines), notes, files=copy, columns=tables.TABLES)
+    deliver(result, to, page=page, drawings=f", page {to.folder / PAGE}")
 
 
 def _notes(gearbox: Gearbox) -> Iterator[str]:

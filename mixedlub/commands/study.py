@@ -46,6 +46,7 @@ def command(
     from mixedlub.study.columns import every_column
     from mixedlub.study.curves import curve_columns, curve_table, refuse_too_many
     from mixedlub.study.fits import fit_columns, fits_table
+    from mixedlub.study.rank import COMPARISONS, RANKING, ranking_tables
     from mixedlub.study.record import TABLES, WRITTEN, record_files, running, study_origin
     from mixedlub.study.validity import out_of_range
 
@@ -70,8 +71,10 @@ def command(
             )
         echo(f"computed in {time.perf_counter() - start:.2f} s")
         print_findings(out_of_range(results))
-        tables = {"results": results.long_table(), "fits": fits_table(results)}
+        ranked = ranking_tables(results)
+        tables = {"results": results.long_table(), "fits": fits_table(results), **ranked}
         columns = {"results": every_column(study.plan.losing), "fits": fit_columns(), "curves": curve_columns()}
+        columns |= {"ranking": list(RANKING), "comparisons": list(COMPARISONS)}
         if curves:
             tables["curves"] = curve_table(study)
         result = Result(
@@ -87,6 +90,7 @@ def command(
                 given=text,
                 formats=how.formats,
                 as_in_paper=paper_figures,
+                ranked=ranked,
                 doing=doing,
             )
 

@@ -78,15 +78,26 @@ class Stage(Section):
 
 
 class Conditions(Section):
-    torque_Nm: Numbers = key("torques at the input, from 0", example={"from": 0, "to": 200, "count": 9})
+    torque_Nm: Numbers = key(
+        "torques at the input; below 0: coast, in which the output drives", example={"from": 0, "to": 200, "count": 9}
+    )
     speed_rpm: Numbers = key("speeds of the input", example={"from": 500, "to": 4000, "count": 8})
+    oil_temperature_C: Numbers | None = key(
+        "temperatures of the oil in every stage, an axis of the map; left out: the map has those of the stages",
+        None,
+        example=[40, 90],
+    )
 
     @model_validator(mode="after")
     def _turning(self) -> Conditions:
-        check_conditions(self.torque_Nm, self.speed_rpm)
-        each_once(self.torque_Nm)
-        each_once(self.speed_rpm)
-        if (count := len(self.torque_Nm) * len(self.speed_rpm)) > MOST_CONDITIONS:
+        check_speeds(self.speed_rpm)
+        for name in ("torque_Nm", "speed_rpm", "oil_temperature_C"):
+            try:
+                each_once(getattr(self, name) or ())
+            except ValueError as error:
+                raise ValueError(f"{name}: {error}") from None
+        count = len(self.torque_Nm) * len(self.speed_rpm) * len(self.oil_temperature_C or (0.0,))
+        if count > MOST_CONDITIONS:
             raise ValueError(f"a map has at most {MOST_CONDITIONS} conditions, not {count}")
         return self
 
@@ -94,7 +105,7 @@ class Conditions(Section):
 class Duty(Section):
     """Time at operating points; entries of the three lists correspond."""
 
-    torque_Nm: tuple[Number, ...] = key("torques at the input", example=[150, 60, 0], min_length=1)
+    torque_Nm: tuple[Number, ...] = key("torques at the input; below 0: coast", example=[150, 60, 0], min_length=1)
     speed_rpm: tuple[Number, ...] = key("speeds of the input", example=[1000, 3000, 3500], min_length=1)
     duration_h: tuple[NotNegative, ...] = key("hours", example=[10, 200, 40], min_length=1)
 
@@ -103,7 +114,7 @@ class Duty(Section):
         counts = [len(self.torque_Nm), len(self.speed_rpm), len(self.duration_h)]
         if len(set(counts)) > 1:
             raise ValueError(f"the three lists go together, but have {counts[0]}, {counts[1]} and {counts[2]} entries")
-        check_conditions(self.torque_Nm, self.speed_rpm)
+        check_speeds(self.speed_rpm)
         return self
 
 
@@ -160,15 +171,32 @@ class EfficiencyFile(Section):
 
     @model_validator(mode="after")
     def _loaded_cycle(self) -> EfficiencyFile:
-        if self.cycle.torque_Nm is None and max(self.conditions.torque_Nm) == 0.0:
-            raise ValueError("all torques of the map are 0, at which no efficiency exists: give cycle.torque_Nm")
+        if self.cycle.torque_Nm is None and max(self.conditions.torque_Nm) <= 0.0:
+            raise ValueError("no torque of the map is above 0, where a mesh cycle exists: give cycle.torque_Nm")
         return self
 
+    @model_validator(mode="after")
+    def _one_temperature(self) -> EfficiencyFile:
+        if self.thermal is not None and self.conditions.oil_temperature_C is not None:
+            raise ValueError("thermal finds the temperature of the oil: leave out conditions.oil_temperature_C")
+        return self
 
-def check_conditions(torque: tuple[float, ...], speed: tuple[float, ...]) -> None:
-    """Raise an error for negative torques and shafts at rest."""
-    if min(torque) < 0.0:
-        rule = f"torque_Nm: {min(torque):g} is below 0; name the side that drives with `driving` of the stage"
-        raise ValueError(rule)
+    @property
+    def coasts(self) -> bool:
+        """Whether the output drives at any condition."""
+        torques = (*self.conditions.torque_Nm, *(self.duty.torque_Nm if self.duty else ()))
+        return min(torques) < 0.0
+
+    def at_oil(self, temperature: float) -> EfficiencyFile:
+        """The file with the oil of all stages at a temperature (degC)."""
+        there = {"oil_temperature_C": temperature}
+        stages, planetary = (
+            {name: one.model_copy(update=there) for name, one in some.items()} for some in (self.stages, self.planetary)
+        )
+        return self.model_copy(update={"stages": stages, "planetary": planetary})
+
+
+def check_speeds(speed: tuple[float, ...]) -> None:
+    """Raise an error for shafts at rest."""
     if min(speed) <= 0.0:
         raise ValueError(f"speed_rpm: {min(speed):g}; a shaft at rest has no loss and no efficiency: above 0")

@@ -37,15 +37,36 @@ def read_gearbox(path: Path, file: EfficiencyFile | None = None) -> tuple[Gearbo
     """Gearbox from a file, checked, and findings for its user; ``file`` replaces the content of the file."""
     file = parse(EfficiencyFile, read_toml(path), str(path)) if file is None else file
     torques = (*file.conditions.torque_Nm, *(file.duty.torque_Nm if file.duty else ()))
-    built: dict[str, StageModel | PlanetaryModel] = {}
+    box, notes = _built(path, file, idles=0.0 in torques)
+    at_oil = {at: _built(path, file.at_oil(at))[0] for at in file.conditions.oil_temperature_C or ()}
+    return replace(box, at_oil=at_oil), tuple(notes)
+
+
+def _built(path: Path, file: EfficiencyFile, *, idles: bool = False) -> tuple[Gearbox, list[Finding]]:
+    """Gearbox at the oil temperatures of its stages, with its reverse if there is coast, and findings."""
     notes: list[Finding] = []
+    box = Gearbox(file, _all_stages(path, file, notes, idles=idles))
+    if file.coasts:
+        reverse = _all_stages(path, file, [], coast=True)[::-1]
+        box = replace(box, coasting=Gearbox(file, reverse))
+    return box, notes
+
+
+def _all_stages(
+    path: Path, file: EfficiencyFile, notes: list[Finding], *, coast: bool = False, idles: bool = False
+) -> tuple[StageModel | PlanetaryModel, ...]:
+    """Stages in the order of the file; in coast each is driven at its output."""
+    built: dict[str, StageModel | PlanetaryModel] = {}
     for run in _runs(file):
         if run[0] in file.planetary:
             for name in run:
-                built[name] = _planetary(path, name, file.planetary[name], notes)
+                section = file.planetary[name]
+                turned = {"input": section.output, "output": section.input} if coast else {}
+                built[name] = _planetary(path, name, section.model_copy(update=turned), notes)
         else:
-            built |= _stages(path, {name: file.stages[name] for name in run}, notes, idles=0.0 in torques)
-    return Gearbox(file, tuple(built.values())), tuple(notes)
+            sections = {name: file.stages[name] for name in run}
+            built |= _stages(path, sections, notes, idles=idles, coast=coast)
+    return tuple(built.values())
 
 
 def _runs(file: EfficiencyFile) -> list[list[str]]:
@@ -54,7 +75,7 @@ def _runs(file: EfficiencyFile) -> list[list[str]]:
 
 
 def _stages(
-    path: Path, sections: dict[str, Stage], notes: list[Finding], *, idles: bool
+    path: Path, sections: dict[str, Stage], notes: list[Finding], *, idles: bool, coast: bool
 ) -> dict[str, StageModel | PlanetaryModel]:
     """Stages of one gear pair that follow each other; what is found goes to ``notes``."""
     studies: dict[str, Study] = {}
@@ -63,14 +84,15 @@ def _stages(
         check_name(name, f"{path}: {where}")
         surfaces = section.surfaces.pinion, section.surfaces.gear
         studies[name] = _study(path, where, section, surfaces, section.oil_temperature_C)
-    loads, found = bearing_loads(sections, {name: one.pair for name, one in studies.items()})
+    loads, found = bearing_loads(sections, {name: one.pair for name, one in studies.items()}, coast=coast)
     notes += found
     stages: dict[str, StageModel | PlanetaryModel] = {}
     for name, study in studies.items():
         section, own = sections[name], {part: load for (stage, part), load in loads.items() if stage == name}
         oil = oil_state(study.oil, section.oil_temperature_C + ZERO_CELSIUS)
         parts = tuple(parts_of(section, study.pair, own, f"{path}: stages.{name}"))
-        stages[name] = StageModel(name, section.driving, study, oil, parts)
+        stage = StageModel(name, section.driving, study, oil, parts)
+        stages[name] = replace(stage, driving=stage.driven) if coast else stage
         notes += study.notes
         for part in parts:
             notes += bearing_findings(part, study.pair, oil, f"stages.{name}", idles=idles)

@@ -64,7 +64,10 @@ def bearing_reactions(wheels: Sequence[WheelForce], first: float, second: float)
 
 @dataclass(frozen=True)
 class Wheel:
-    """Wheel of a stage on its shaft: position (m), and angle (rad) to its mate, in the sense of rotation."""
+    """Wheel of a stage on its shaft: position (m), and angle (rad) to its mate, in the sense of rotation.
+
+    In coast the other side drives: the force along the pitch circle and the thrust change their sense.
+    """
 
     stage: str
     section: Stage
@@ -72,6 +75,7 @@ class Wheel:
     side: Side
     position: float = 0.0
     angle: float = 0.0
+    coast: bool = False
 
     @property
     def shaft(self) -> str:
@@ -98,7 +102,8 @@ class Wheel:
         pair, towards = self.pair, cmath.exp(1j * self.angle)
         rolling, angle = pair.operating_radius[0 if self.side == "pinion" else 1], pair.working_pressure_angle
         radius = abs(rolling)
-        tangential = -1.0 / radius if self.side == self.section.driving else 1.0 / radius
+        drives = (self.side == self.section.driving) != self.coast
+        tangential = -1.0 / radius if drives else 1.0 / radius
         thrust = math.tan(abs(pair.base_helix_angle)) / (radius * math.cos(angle))
         across = towards * complex(-math.tan(angle) / rolling, tangential)  # a ring is pressed outwards
         return WheelForce(self.position, across, self._direction() * thrust, radius * towards)
@@ -113,18 +118,21 @@ class Wheel:
                 "on the pinion points"
             )
             raise InputError(rule, where=f"stages.{self.stage}.pinion_thrust")
-        return SIGNS[self.section.pinion_thrust] * (1.0 if self.side == "pinion" else -1.0)
+        on_pinion = -SIGNS[self.section.pinion_thrust] if self.coast else SIGNS[self.section.pinion_thrust]
+        return on_pinion if self.side == "pinion" else -on_pinion
 
 
 Loads = dict[tuple[str, str], Load]
 
 
-def bearing_loads(stages: Mapping[str, Stage], pairs: Mapping[str, GearPair]) -> tuple[Loads, list[Finding]]:
+def bearing_loads(
+    stages: Mapping[str, Stage], pairs: Mapping[str, GearPair], *, coast: bool = False
+) -> tuple[Loads, list[Finding]]:
     """Loads of all bearings by stage and name; findings on shafts without bearings, on induced thrust left out, and on
     distances unlike a gearbox."""
     loads: Loads = {}
     bare: list[str] = []
-    for wheels in _shafts(stages, pairs):
+    for wheels in _shafts(stages, pairs, coast):
         listed = [one for wheel in wheels for one in wheel.bearings.values()]
         if not listed:
             bare.append(" and ".join(f"{wheel.stage}.{wheel.side}" for wheel in wheels))
@@ -169,9 +177,9 @@ def _induces(bearing: Bearing) -> bool:
     return angled and bearing.axial_load_N == 0.0
 
 
-def _shafts(stages: Mapping[str, Stage], pairs: Mapping[str, GearPair]) -> Iterator[list[Wheel]]:
+def _shafts(stages: Mapping[str, Stage], pairs: Mapping[str, GearPair], coast: bool) -> Iterator[list[Wheel]]:
     """Shafts in the order of the power, each with one wheel or with two wheels of successive stages."""
-    driving = [Wheel(name, one, pairs[name], one.driving) for name, one in stages.items()]
+    driving = [Wheel(name, one, pairs[name], one.driving, coast=coast) for name, one in stages.items()]
     driven = [replace(one, side="gear" if one.side == "pinion" else "pinion") for one in driving]
     if driving[0].section.shared_shaft is not None:
         raise InputError("the first stage has no stage before it", where=f"stages.{driving[0].stage}.shared_shaft")
@@ -263,10 +271,11 @@ def _carrier(
     side = "positive" if thrust > 0.0 else "negative"
     takers = [one for _, _, one in seats if one.axial in ("fixed", side)]
     if len(takers) != 1:
+        in_coast = " in coast" if wheels[0].coast else ""
         has = "no bearing takes" if not takers else f"{len(takers)} bearings take"
         rule = (
-            f'{has} the axial force, which points to the {side} side: give axial = "fixed" (or "{side}") to one '
-            "bearing of the shaft"
+            f'{has} the axial force, which points to the {side} side{in_coast}: give axial = "fixed" (or "{side}") to '
+            "one bearing of the shaft"
         )
         raise InputError(rule, where=wheels[0].shaft)
     return takers[0]

@@ -16,17 +16,19 @@ from mixedlub.schema.result import column, described, frame_of
 RPM = 30.0 / np.pi
 JOULES_PER_KWH = 3.6e6
 SECONDS_PER_HOUR = 3600.0
-TOOTH = "1 less the losses of the teeth, sliding and rolling, over input power; empty without torque"
-WHOLE = "1 less all losses over input power; empty without torque"
+TOOTH = "1 less the losses of the teeth, sliding and rolling, over the power taken in; empty without torque"
+WHOLE = "1 less all losses over the power taken in: at the input, in coast at the output; empty without torque"
+OIL = column(lambda f: f.oil, "oil_temperature_C", "temperature of the oil of all stages; only where it is an axis")
 AT = (
-    column(lambda f: f.torque, "torque_Nm", "torque of the input"),
+    column(lambda f: f.torque, "torque_Nm", "torque of the input; below 0 in coast, where the output drives"),
     column(lambda f: f.speed * RPM, "speed_rpm", "speed of the input"),
+    OIL,
 )
 MAP = (
     *AT,
     column(lambda f: f.input_power, "input_power_W", "torque times angular speed of the input"),
     column(lambda f: f.total(), "total_loss_W", "sum of all losses"),
-    column(lambda f: f.output_power, "output_power_W", "input power less all losses"),
+    column(lambda f: f.output_power, "output_power_W", "input power less all losses; below 0 it drives"),
     column(lambda f: f.output_power / f.speed * f.gearbox.ratio, "output_torque_Nm", "torque of the output"),
     column(lambda f: f.speed / f.gearbox.ratio * RPM, "output_speed_rpm", "speed of the output"),
     column(lambda f: 100.0 * f.efficiency(MESH), "tooth_efficiency_percent", TOOTH),
@@ -34,7 +36,8 @@ MAP = (
 )
 LOSS_MAP = (
     column(lambda f: f.speed * RPM, "input_speed_rpm", "speed of the input"),
-    column(lambda f: f.torque, "input_torque_Nm", "torque of the input"),
+    column(lambda f: f.torque, "input_torque_Nm", "torque of the input; below 0 in coast"),
+    OIL,
     column(lambda f: f.total() / f.speed, "torque_loss_Nm", "all losses as a torque of the input"),
     column(lambda f: f.total(), "power_loss_W", "all losses"),
 )
@@ -83,10 +86,15 @@ TABLES = {
     ),
     "mesh_cycle": CYCLE,
     "tooth_pair": TOOTH_PAIR,
-    "duty": (*_MAP, *described(**_DURATION, input_energy_kWh="energy taken in", loss_energy_kWh="energy lost")),
+    "duty": (
+        *_MAP,
+        *described(
+            **_DURATION, input_energy_kWh="energy taken in, in coast at the output", loss_energy_kWh="energy lost"
+        ),
+    ),
     "duty_summary": described(
         **_DURATION,
-        input_energy_kWh="energy taken in",
+        input_energy_kWh="energy taken in, in coast at the output",
         loss_energy_kWh="energy lost",
         output_energy_kWh="energy delivered",
         mean_tooth_efficiency_percent="1 less energy lost by the teeth over energy taken in",
@@ -119,7 +127,9 @@ def part_table(losses: Losses) -> pd.DataFrame:
 
 def loss_map(losses: Losses) -> pd.DataFrame:
     """Loss map for drive-cycle tools: torque and power lost at each speed and torque of the input."""
-    return frame_of(losses, LOSS_MAP).sort_values(["input_speed_rpm", "input_torque_Nm"], ignore_index=True)
+    table = frame_of(losses, LOSS_MAP)
+    order = [name for name in (OIL.name, "input_speed_rpm", "input_torque_Nm") if name in table]
+    return table.sort_values(order, ignore_index=True)
 
 
 def breakdown_table(at: Losses) -> pd.DataFrame:
@@ -174,7 +184,7 @@ def duty_table(losses: Losses, hours: np.ndarray) -> pd.DataFrame:
     """Table of the operating points of a duty cycle: columns of the map, and energies."""
     table = map_table(losses)
     table.insert(2, "duration_h", hours)
-    for name, power in (("input", losses.input_power), ("loss", losses.total())):
+    for name, power in (("input", losses.power_taken), ("loss", losses.total())):
         table[f"{name}_energy_kWh"] = power * hours * SECONDS_PER_HOUR / JOULES_PER_KWH
     return table
 
@@ -183,7 +193,7 @@ def duty_summary(losses: Losses, hours: np.ndarray) -> pd.DataFrame:
     """Energies of a duty cycle, total and by origin, and mean efficiencies as ratios of energies, in one row."""
     to_energy = hours * SECONDS_PER_HOUR / JOULES_PER_KWH
     taken, lost, mesh = (
-        float(np.sum(power * to_energy)) for power in (losses.input_power, losses.total(), losses.total(origins=MESH))
+        float(np.sum(power * to_energy)) for power in (losses.power_taken, losses.total(), losses.total(origins=MESH))
     )
     drives = taken > lost
     row: dict[str, float] = {

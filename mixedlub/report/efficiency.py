@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mixedlub.efficiency.gearbox import MESH, Losses
-from mixedlub.efficiency.table import RPM, present
+from mixedlub.efficiency.table import RPM, map_table, present
+from mixedlub.report.panels import panel_figure
 from mixedlub.report.style import SMALL, WIDTH, legend_above, panels, shades
 from mixedlub.schema.result import Curve, Drawing, Panel, curve
 
@@ -25,16 +26,40 @@ CURVES = 5
 """Largest number of curves in a figure of the efficiency."""
 LEAST_LEVELS = 2
 """Smallest number of torques and speeds of a map."""
+CAPTIONS = {
+    "map": "Total loss, tooth efficiency and gearbox efficiency over input speed and torque. Below a torque of 0 the "
+    "output drives. The lowest twentieth of the efficiencies has one colour.",
+    "breakdown": "Losses by origin, stacked: over torque at the largest speed, and over speed at the largest torque.",
+    "efficiency": "Tooth efficiency over torque at some speeds, and over speed at some torques; the input drives.",
+    "loss_torque": "All losses as a torque of the input over its torque, at some speeds. Below a torque of 0 the "
+    "output drives.",
+    "oil_temperature": "Total loss and gearbox efficiency over the oil temperature at the largest speed.",
+    "mesh_cycle": "Loss, tooth efficiency, friction coefficient and friction force of each mesh over one base pitch, "
+    "at the condition of the breakdown.",
+    "tooth_pair": "Normal and friction force of one tooth pair of each stage over the roll angle of the pinion.",
+    "thermal": "Temperature of the sump at which all losses leave as heat: over speed at some torques, and over the time of "
+    "the duty cycle.",
+}
+"""Captions of the figures, by name without oil temperature."""
 
 
 def efficiency_figures(
     title: str, losses: Losses, cycles: Sequence[MeshCycle], tables: Mapping[str, pd.DataFrame]
 ) -> dict[str, Drawing]:
     """All figures by file name."""
+    found: dict[str, Drawing] = {}
+    for suffix, words, part in _at_oils(losses):
+        table = map_table(part)
+        found |= {
+            f"map{suffix}": partial(map_figure, title + words, part),
+            f"breakdown{suffix}": partial(breakdown_figure, title + words, part),
+            f"efficiency{suffix}": partial(panel_figure, title + words, tuple(_efficiency(table))),
+            f"loss_torque{suffix}": partial(panel_figure, title + words, tuple(_loss_torque(table))),
+        }
+    if losses.oil is not None and np.unique(losses.oil).size > 1:
+        found["oil_temperature"] = tuple(_over_oil(tables["map"]))
     return {
-        "map": partial(map_figure, title, losses),
-        "breakdown": partial(breakdown_figure, title, losses),
-        "efficiency": tuple(_efficiency(tables["map"])),
+        **found,
         "mesh_cycle": tuple(_cycle(cycles)),
         "tooth_pair": tuple(_tooth(tables["tooth_pair"])),
         **({"thermal": tuple(_thermal(tables))} if "thermal" in tables else {}),
@@ -53,6 +78,28 @@ def _thermal(tables: Mapping[str, pd.DataFrame]) -> Iterator[Panel]:
     if "thermal_history" in tables:
         over = curve(tables["thermal_history"], "time_h", "sump_temperature_C")
         yield Panel("time (h)", "sump temperature (°C)", (over,))
+
+
+def caption(name: str) -> str:
+    """Caption of a figure, by its name with the oil temperature.
+
+    >>> caption("tooth_pair")
+    'Normal and friction force of one tooth pair of each stage over the roll angle of the pinion.'
+    >>> caption("loss_torque_40C").rpartition(". ")[2]
+    'Oil at 40 °C.'
+    """
+    known = next(known for known in CAPTIONS if name.startswith(known))
+    oil = name.removeprefix(f"{known}_").removesuffix("C") if name != known else ""
+    return CAPTIONS[known] + (f" Oil at {oil} °C." if oil else "")
+
+
+def _at_oils(losses: Losses) -> Iterator[tuple[str, str, Losses]]:
+    """Losses at the lowest and the highest oil temperature, with the end of a name and words for a title."""
+    if losses.oil is None:
+        yield "", "", losses
+        return
+    for at in sorted({losses.oil.min(), losses.oil.max()}):
+        yield f"_{at:g}C", f", oil at {at:g} °C", losses.where(losses.oil == at)
 
 
 def map_figure(title: str, losses: Losses) -> Figure | None:
@@ -124,6 +171,30 @@ def _efficiency(table: pd.DataFrame) -> Iterator[Panel]:
             for group, level in enumerate(_some(table[other].to_numpy()))
         ]
         yield Panel(f"input {words}", "tooth efficiency (%)", tuple(lines))
+
+
+def _loss_torque(table: pd.DataFrame) -> Iterator[Panel]:
+    """All losses as a torque of the input over its torque, at some speeds."""
+    torque = table["total_loss_W"] * RPM / table["speed_rpm"]
+    lost = table.assign(torque_loss_Nm=torque)
+    lines = [
+        curve(rows.sort_values("torque_Nm"), "torque_Nm", "torque_loss_Nm", f"{level:.4g} rpm", group=group)
+        for group, level in enumerate(_some(table["speed_rpm"].to_numpy()))
+        for rows in (lost[lost["speed_rpm"] == level],)
+    ]
+    yield Panel("input torque (N m)", "torque loss at the input (N m)", tuple(lines), from_zero=True)
+
+
+def _over_oil(table: pd.DataFrame) -> Iterator[Panel]:
+    """Loss and gearbox efficiency over the oil temperature at the largest speed, at some torques."""
+    fastest = table[table["speed_rpm"] == table["speed_rpm"].max()]
+    for name, up in (("total_loss_W", "total loss (W)"), ("gearbox_efficiency_percent", "gearbox efficiency (%)")):
+        lines = [
+            curve(rows, "oil_temperature_C", name, f"{level:.4g} N m", group=group, style="o-")
+            for group, level in enumerate(_some(table["torque_Nm"].to_numpy()))
+            for rows in (fastest[fastest["torque_Nm"] == level].sort_values("oil_temperature_C"),)
+        ]
+        yield Panel("oil temperature (°C)", up, tuple(lines))
 
 
 def _some(values: np.ndarray) -> np.ndarray:

@@ -122,7 +122,20 @@ def _hollow(outside: np.ndarray) -> str:
 
 def shaded(results: Results) -> str:
     """Meaning of the shaded bands; empty without bands."""
-    return f" Shaded: {BANDS[results.study.plan.options.bands]}." if has_bands(results) else ""
+    return f" Shaded: {band_words(results)}." if has_bands(results) else ""
+
+
+def band_words(results: Results) -> str:
+    """Meaning of the bands of a study; empty without bands.
+
+    The band of a study with traces and uncertain inputs adds the squares of both.
+    """
+    uncertain = [name.replace("_", " ") for name in results.study.file.uncertainty.stated]
+    of_inputs = f"the stated uncertainty of {', '.join(uncertain)}" if uncertain else ""
+    of_surfaces = BANDS.get(results.study.plan.options.bands, "")
+    if not of_surfaces:
+        return f"90 % intervals by {of_inputs}" if of_inputs else ""
+    return f"{of_surfaces}; with {of_inputs}" if of_inputs else of_surfaces
 
 
 BANDS = {

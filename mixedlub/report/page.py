@@ -6,18 +6,19 @@ import multiprocessing
 import os
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import partial
-from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from mixedlub.report.cutoff_table import cutoff_rows
-from mixedlub.report.figures import BANDS, Drawn, figures
+from mixedlub.report.figures import Drawn, band_words, figures
+from mixedlub.report.html import PAGE as HTML
+from mixedlub.report.html import drawn_all, rendered, shown, start_of
 from mixedlub.report.interactive import EMBEDDING, PLACE, explorer
 from mixedlub.report.laws import laws_used
 from mixedlub.report.paper_figures import paper_figures
-from mixedlub.report.style import as_svg, save
+from mixedlub.report.ranking import ranking_drawn
 from mixedlub.report.surfaces import (
     height_notes,
     judgement,
@@ -27,7 +28,6 @@ from mixedlub.report.surfaces import (
     surface_rows,
     traced,
 )
-from mixedlub.running.parallel import as_done
 from mixedlub.schema.findings import Finding, grouped
 from mixedlub.schema.section import FileTable, Key, table
 from mixedlub.study import counted, factors
@@ -36,13 +36,17 @@ from mixedlub.study.columns import OF_VALIDITY
 from mixedlub.study.fits import FEWEST_PAIRINGS, over_roughness
 from mixedlub.study.options import ignored
 from mixedlub.study.plan import Study
+from mixedlub.study.rank import ranking_tables
 from mixedlub.study.record import assumed, resolved
 from mixedlub.study.results import Results, versions
 from mixedlub.study.schema import Options, StudyFile
 
+if TYPE_CHECKING:
+    import pandas as pd
+
 MOST_SURFACES = 12
-MOST_GIVEN = 200_000
-"""Largest number of characters of the study file on the page."""
+MOST_RANKED = 60
+"""Largest number of rows of the ranking on the page."""
 
 
 def write_page(
@@ -53,40 +57,94 @@ def write_page(
     given: str = "",
     formats: Sequence[str] = ("svg",),
     as_in_paper: bool = False,
+    ranked: Mapping[str, pd.DataFrame] | None = None,
     doing: Callable[[str], None] = lambda text: None,
 ) -> list[Finding]:
     """Write ``index.html`` and ``figures/`` into a folder; return the findings on the heights of the traces.
 
-    ``given``: study file as text. ``as_in_paper``: add files of the figures in the style of the paper. ``doing``:
-    called with the next step.
+    ``given``: study file as text. ``as_in_paper``: add files of the figures in the style of the paper. ``ranked``:
+    tables of the ranking, if they are known. ``doing``: called with the next step.
     """
-    from jinja2 import Environment
-
     drawings = folder / "figures"
     drawings.mkdir()
     study = results.study
     profiles = traced(study)
     judged = judgement(profiles)
-    drawn = [*surface_figures(study, profiles, judged), *figures(results)]
+    ranked = ranking_tables(results) if ranked is None else ranked
+    drawn = [*ranking_drawn(ranked), *surface_figures(study, profiles, judged), *figures(results)]
     printed = list(paper_figures(results)) if as_in_paper else []
-    tasks: list[Callable[[], Any]] = [partial(_chart, results)]
-    tasks += [partial(_saved, one, drawings, formats) for one in (*drawn, *printed)]
-    made: dict[int, Any] = {}
-    for place, one in as_done(lambda task: task(), tasks):
-        made[place] = one
-        doing(f"drawing: {len(made)} of {len(tasks)} figures")
-    chart, *svgs = (made[place] for place in range(len(tasks)))
-    shown = [{"name": one.name, "caption": one.caption, "svg": svg} for one, svg in zip(drawn, svgs)]
+    svgs, (chart,) = drawn_all([*drawn, *printed], drawings, formats, doing, partial(_chart, results))
     files_of = [{"file": f"{one.name}.{formats[0]}", "caption": one.caption} for one in printed]
-    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    template = environment.from_string(files("mixedlub.report").joinpath("template.html").read_text(encoding="utf-8"))
     normal = study.plan.options.heights == "gaussian"
     of_heights = [*(not_gaussian(judged) if normal else []), *height_notes(profiles, judged, normal)]
-    texts = {"notes": grouped([*notes, *of_heights]), "provenance": provenance(study), "given": _start(given)}
+    texts = {"notes": grouped([*notes, *of_heights]), "provenance": provenance(study)}
+    texts["given"] = start_of(given, "study.toml")
     embedded = {"chart": chart, "place": PLACE, "embedding": {**EMBEDDING, "downloadFileName": study.name}}
-    page = template.render(**content(results), **texts, **embedded, figures=shown, printed=files_of)
-    (folder / "index.html").write_text(page, encoding="utf-8")
+    parts = {"figures": shown(drawn, svgs), "printed": files_of, "ranking": ranking_rows(ranked)}
+    page = rendered("template.html", **content(results), **texts, **embedded, **parts)
+    (folder / HTML).write_text(page, encoding="utf-8")
     return of_heights
+
+
+def ranking_rows(ranked: Mapping[str, pd.DataFrame]) -> dict[str, Any] | None:
+    """Ranking on the page, the best first: tables of loss and of cost; None for one pairing."""
+    table = ranked["ranking"]
+    if len(table) < 2:
+        return None
+    records: list[Any] = table.head(MOST_RANKED).to_dict("records")
+    good = table["as_good_as_best"].eq("yes") if "as_good_as_best" in table else table["place"] == 1
+    shown = []
+    for heads in (OF_LOSS, OF_COST):
+        chosen = {head: write for head, (needs, write) in heads.items() if needs in table}
+        rows = [[write(row) for write in chosen.values()] for row in records]
+        shown.append({"heads": list(chosen), "rows": list(zip(good, rows))})
+    uncertain, costs = "place_low90" in table, "relative_cost" in table
+    return {
+        "tables": shown if costs else shown[:1],
+        "uncertain": uncertain,
+        "rows": len(records),
+        "count": len(table),
+        "good": int(good.sum()),
+    }
+
+
+Written = tuple[str, Callable[[Mapping[str, Any]], str]]
+"""Column of the ranking that a head of the page needs, and the text of a row."""
+OF_PAIRING: Mapping[str, Written] = {
+    "place": ("place", lambda row: str(row["place"])),
+    "pinion / gear": ("place", lambda row: f"{row['pinion_surface']} / {row['gear_surface']}"),
+}
+OF_LOSS: Mapping[str, Written] = {
+    **OF_PAIRING,
+    "mean loss (W)": ("place", lambda row: f"{row['mean_loss_W']:.4g}"),
+    "90 % interval (W)": ("mean_loss_W_low90", lambda row: span(row, "mean_loss_W", ".4g")),
+    "over first (%)": ("place", lambda row: f"{row['over_best_percent']:.1f}"),
+    "places (90 %)": ("place_low90", lambda row: span(row, "place", ".0f")),
+    "P(best)": ("best_probability", lambda row: f"{row['best_probability']:.2f}"),
+    "P(less than first)": (
+        "less_than_first_probability",
+        lambda row: "" if row["place"] == 1 else f"{row['less_than_first_probability']:.2f}",
+    ),
+    "as good as the best": ("as_good_as_best", lambda row: row["as_good_as_best"]),
+}
+OF_COST: Mapping[str, Written] = {
+    **OF_PAIRING,
+    "relative cost": ("relative_cost", lambda row: f"{row['relative_cost']:g}"),
+    "loss saved over the cheapest (%)": ("saving_percent", lambda row: f"{row['saving_percent']:.1f}"),
+    "90 % interval (%)": ("saving_percent_low90", lambda row: span(row, "saving_percent", ".1f")),
+    "efficient": ("efficient", lambda row: row["efficient"]),
+    "P(efficient)": ("efficient_probability", lambda row: f"{row['efficient_probability']:.2f}"),
+}
+
+
+def span(row: Mapping[str, Any], name: str, form: str) -> str:
+    """Ends of a 90 % interval in a row.
+
+    >>> span({"place_low90": 1, "place_high90": 3}, "place", ".0f")
+    '1 to 3'
+    """
+    low, high = (format(row[f"{name}_{end}90"], form) for end in ("low", "high"))
+    return low if low == high else f"{low} to {high}"
 
 
 def _chart(results: Results) -> Any:
@@ -94,22 +152,6 @@ def _chart(results: Results) -> Any:
     if multiprocessing.parent_process() is not None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
     return explorer(results)
-
-
-def _start(given: str) -> str:
-    """Beginning of the study file, as far as the page has room."""
-    if len(given) <= MOST_GIVEN:
-        return given
-    return f"{given[:MOST_GIVEN]}\n\n[The first {MOST_GIVEN} of {len(given)} characters; study.toml has all.]"
-
-
-def _saved(drawn: Drawn, folder: Path, formats: Sequence[str]) -> str:
-    """A figure as SVG, after writing its files."""
-    svg = as_svg(drawn.figure)
-    for form in formats:
-        path = folder / f"{drawn.name}.{form}"
-        path.write_text(svg, encoding="utf-8") if form == "svg" else save(drawn.figure, path)
-    return svg
 
 
 def content(results: Results) -> dict[str, Any]:
@@ -129,7 +171,7 @@ def content(results: Results) -> dict[str, Any]:
         "loss_table": loss_table(results),
         "surfaces": surface_rows(study),
         "cutoffs": cutoff_rows(results),
-        "band": BANDS.get(file.options.bands),
+        "band": band_words(results),
         "gears": input_rows(study, "gears"),
         "geometry": geometry_rows(study),
         "lubricant": input_rows(study, "lubricant"),

@@ -95,6 +95,25 @@ class Measured:
         """Changes of the logarithms of the moments at the ends of their scatter bands, by axis."""
         from roughness.lay import mean_axes
 
+        found: list[Mapping[str, float]] = []
+        for keys, samples, least in self._scatter:
+            if len(samples) < FEWEST:
+                rule = (
+                    "the scatter needs three traces in each direction, or traces of three sampling lengths; "
+                    f"here are {len(samples)}: give more traces"
+                )
+                raise InputError(rule, where=f"surfaces.{name}")
+            found += [dict(zip(keys, row, strict=True)) for row in mean_axes(samples, LEVEL, least).tolist()]
+        return tuple(found)
+
+    @property
+    def freedom(self) -> tuple[tuple[int, int], ...]:
+        """Number of axes of each direction of traces or of the map, and their degrees of freedom."""
+        return tuple((len(keys), len(samples) - 1) for keys, samples, _ in self._scatter)
+
+    @cached_property
+    def _scatter(self) -> list[tuple[Sequence[str], np.ndarray, np.ndarray | float]]:
+        """Moments by name, their values in each trace or part of the map, and lower bounds on their scatter."""
         groups: list[tuple[Sequence[str], np.ndarray, np.ndarray | float]] = []
         if self.area is not None:
             from roughness.maps.moments import tiles
@@ -107,16 +126,7 @@ class Measured:
             groups.append((ACROSS, self.across.samples(), 0.0))
         if self.along is not None:
             groups.append((ALONG, self.along.samples()[:, 1:], 0.0))
-        found: list[Mapping[str, float]] = []
-        for keys, samples, least in groups:
-            if len(samples) < FEWEST:
-                rule = (
-                    "the scatter needs three traces in each direction, or traces of three sampling lengths; "
-                    f"here are {len(samples)}: give more traces"
-                )
-                raise InputError(rule, where=f"surfaces.{name}")
-            found += [dict(zip(keys, row, strict=True)) for row in mean_axes(samples, LEVEL, least).tolist()]
-        return tuple(found)
+        return groups
 
     @cached_property
     def _angle(self) -> float:

@@ -85,6 +85,11 @@ class Rig:
         alone = build.assumed(name, self.file.surfaces[name])
         return self.measured(name).axes(name) if alone is None else alone.axes
 
+    def freedom(self, name: str) -> tuple[tuple[int, int], ...]:
+        """Number of axes of `axes` that share their degrees of freedom, and these; 0 where an assumption sets them."""
+        alone = build.assumed(name, self.file.surfaces[name])
+        return self.measured(name).freedom if alone is None else tuple((1, 0) for _ in alone.axes)
+
     def surface(self, name: str) -> Surface:
         """Surface from its moments, traces or map."""
         section = self.file.surfaces[name]

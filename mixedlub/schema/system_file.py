@@ -268,11 +268,11 @@ class Lubricant(Section):
 
 class Uncertainty(Section):
     boundary_friction: Number = key("of the boundary friction, absolute", 0.0, example=0.012)
-    viscosity: Number = key("of the viscosity, relative; one factor for the case", 0.0, example=0.06)
+    viscosity: Number = key("of the viscosity, relative; one factor throughout", 0.0, example=0.06)
     pressure_viscosity: Number = key(
-        "of the pressure-viscosity coefficient, relative; one factor for the case", 0.0, example=0.06
+        "of the pressure-viscosity coefficient, relative; one factor throughout", 0.0, example=0.06
     )
-    eyring_stress: Number = key("of the Eyring stress, relative; one factor for the case", 0.0, example=0.15)
+    eyring_stress: Number = key("of the Eyring stress, relative; one factor throughout", 0.0, example=0.15)
     roughness: Number = key("of Rq, relative; one factor for all surfaces", 0.0, example=0.04)
 
     @property

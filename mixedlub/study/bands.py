@@ -1,6 +1,6 @@
-"""Bands of the results: the effect of the scatter of the traces over a surface and of another short cut-off.
+"""Bands of the results: scatter of the traces over a surface, another short cut-off, uncertain oil and friction.
 
-A group is the study at one short cut-off, with the surfaces moved to both ends of every axis of their scatter. The
+A group is the study at one short cut-off, with the inputs moved to both ends of every axis of their uncertainty. The
 squares of the changes of an output add up over the axes; the band of the study is the widest of its groups.
 """
 
@@ -12,29 +12,62 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.rig.measured import moved
+from mixedlub.rig.measured import ACROSS, ALONG, moved
 from mixedlub.rig.rig import Rig
 from mixedlub.rig.surface import Surface
 from mixedlub.schema.findings import finding, report
 from mixedlub.schema.units import ending_of, without_unit
+from mixedlub.study.schema import StudyFile
 from profiles.errors import InputError
 
 FACTORS = (1.0, 0.5, 2.0)
 """Short cut-offs relative to the study's; the study itself first."""
 LOW, HIGH = "lowest_", "highest_"
 """Prefixes of output names: ends of the band."""
+LOSS_AT = "loss_at_"
+"""Prefix of the power loss of a group, and of its power loss at an end of an axis."""
+REACH = 1.6449
+"""Definition. Standard deviations from the mean to an end of a 90 % interval of a normal distribution."""
+OF_OIL = ("viscosity", "pressure_viscosity", "eyring_stress")
+"""Uncertain inputs of the oil."""
+BOUNDARY, ROUGHNESS = "boundary_friction", "roughness"
+"""Uncertain inputs that are no factor on an input of the chain."""
 AT_MOST_ONE = ("area_ratio", "mean_asperity_load_share", "asperity_load_share", "efficiency", "tooth_efficiency")
 
 Pairs = list[tuple[Surface, Surface]]
 Values = Mapping[str, Any]
 
 
+Cause = tuple[int, int] | str
+"""Side of a pairing and place of an axis of its surface, or the name of an uncertain input."""
+
+
+@dataclass(frozen=True, eq=False)
+class Axis:
+    """Inputs at both ends of one uncertainty."""
+
+    low: Values
+    high: Values
+    cause: Cause
+
+
 @dataclass(frozen=True, eq=False)
 class Group:
-    """Inputs of the surfaces at one short cut-off and at both ends of each axis of their scatter."""
+    """Inputs at one short cut-off, relative to the study's, and at both ends of each axis of their uncertainty."""
 
     own: Values
-    axes: tuple[tuple[Values, Values], ...]
+    axes: tuple[Axis, ...]
+    factor: float = 1.0
+
+
+def uncertain_inputs(file: StudyFile) -> dict[str, float]:
+    """Standard deviations of inputs common to all pairings; raises an error for uncertain oil in full solutions."""
+    found = file.uncertainty.stated
+    for name in OF_OIL if file.options.base == "full_solution" else ():
+        if name in found:
+            rule = 'base = "full_solution" takes the oil as known; leave it out'
+            raise InputError(rule, where=f"uncertainty.{name}", value=found[name])
+    return found
 
 
 def groups(
@@ -43,39 +76,84 @@ def groups(
     surfaces: Mapping[str, Surface],
     pairings: Sequence[tuple[str, str]],
     inputs: Callable[[Pairs], Values],
+    uncertain: Mapping[str, float],
+    common: Values,
 ) -> tuple[Group, ...]:
-    """Groups of a kind of band: ``traces``, ``short_cutoff`` or ``both``; empty for ``none``."""
-    if kind == "none":
-        return ()
+    """Groups of a kind of band: ``traces``, ``short_cutoff``, ``both`` or ``none``.
+
+    ``uncertain``: standard deviations of inputs common to all pairings, with their values in ``common``. Without both
+    there are no groups.
+    """
     measured = [name for name in surfaces if rig.file.surfaces[name].is_measured]
     assumed = [name for name in surfaces if rig.file.surfaces[name].one_number is not None]
+    if kind != "none":
+        _check_surfaces(kind, surfaces, measured, assumed)
+    elif not uncertain:
+        return ()
+    scattered = kind in ("traces", "both")
+    spread = {name: rig.axes(name) for name in (*measured, *assumed)} if scattered else {}
+    if spread:
+        _tell_samples(rig, measured)
+    over_cutoffs = kind in ("short_cutoff", "both")
+    found = []
+    for factor in FACTORS if over_cutoffs else FACTORS[:1]:
+        at = {name: rig.at_short_cutoff(name, factor) if factor != 1.0 else one for name, one in surfaces.items()}
+        if factor != 1.0 and all(at[name] is surfaces[name] for name in surfaces):
+            continue
+        own = inputs([(at[a], at[b]) for a, b in pairings])
+        axes = [Axis(inputs(low), inputs(high), cause) for low, high, cause in _ends(at, spread, pairings)]
+        axes += [_stated(name, sd, {**common, **own}, at, pairings, inputs) for name, sd in uncertain.items()]
+        found.append(Group(own, tuple(axes), factor))
+    if over_cutoffs:
+        _tell_cutoffs(rig, measured)
+    return tuple(found)
+
+
+def _check_surfaces(
+    kind: str, surfaces: Mapping[str, Surface], measured: Sequence[str], assumed: Sequence[str]
+) -> None:
+    """Raise an error for bands without a surface that scatters; report the surfaces taken as exact."""
     if not measured and not assumed:
         raise InputError("needs surfaces given by traces or a map", where="options.bands", value=kind)
     stated = [name for name in surfaces if name not in (*measured, *assumed)]
     if stated:
         text = f"the moments of {', '.join(stated)} are stated; the bands take them as exact"
         report(finding("band_stated_moments", text, "options.bands"))
-    spread = {name: rig.axes(name) for name in (*measured, *assumed)} if kind != "short_cutoff" else {}
-    if spread:
-        _tell_samples(rig, measured)
-    found = []
-    for factor in FACTORS if kind != "traces" else FACTORS[:1]:
-        at = {name: rig.at_short_cutoff(name, factor) if factor != 1.0 else one for name, one in surfaces.items()}
-        if factor != 1.0 and all(at[name] is surfaces[name] for name in surfaces):
-            continue
-        own = inputs([(at[a], at[b]) for a, b in pairings])
-        ends = _ends(at, spread, pairings)
-        found.append(Group(own, tuple((inputs(low), inputs(high)) for low, high in ends)))
-    if kind != "traces":
-        _tell_cutoffs(rig, measured)
-    return tuple(found)
+
+
+def _stated(
+    name: str,
+    sd: float,
+    own: Values,
+    at: Mapping[str, Surface],
+    pairings: Sequence[tuple[str, str]],
+    inputs: Callable[[Pairs], Values],
+) -> Axis:
+    """Axis of an uncertain input, at both ends of its 90 % interval; other inputs as in the group."""
+    if name == ROUGHNESS:
+        step = 2.0 * REACH * sd
+        low, high = (
+            inputs([(_rougher(at[a], sign * step), _rougher(at[b], sign * step)) for a, b in pairings])
+            for sign in (-1.0, 1.0)
+        )
+    elif name == BOUNDARY:
+        low, high = ({**own, name: max(own[name] + sign * REACH * sd, 0.0)} for sign in (-1.0, 1.0))
+    else:
+        low, high = ({**own, name: own[name] * np.exp(sign * REACH * sd)} for sign in (-1.0, 1.0))
+    return Axis(low, high, name)
+
+
+def _rougher(surface: Surface, step: float) -> Surface:
+    """Surface with all its moments times the exponential of a step."""
+    known = [key for key in (*ACROSS, *ALONG) if getattr(surface, key) is not None]
+    return moved(surface, dict.fromkeys(known, 1.0), step)
 
 
 def _ends(
     at: Mapping[str, Surface],
     spread: Mapping[str, Sequence[Mapping[str, float]]],
     pairings: Sequence[tuple[str, str]],
-) -> Iterator[tuple[Pairs, Pairs]]:
+) -> Iterator[tuple[Pairs, Pairs, Cause]]:
     """Pairings with a side at both ends of an axis; a surface paired with itself is moved on both sides at once."""
     sides = (0, 1) if any(a != b for a, b in pairings) else (0,)
     for side in sides:
@@ -84,7 +162,7 @@ def _ends(
                 {n: moved(at[n], axes[axis], sign) for n, axes in spread.items() if axis < len(axes)}
                 for sign in (-1.0, 1.0)
             )
-            yield _pairs(at, low, pairings, side), _pairs(at, high, pairings, side)
+            yield _pairs(at, low, pairings, side), _pairs(at, high, pairings, side), (side, axis)
 
 
 def _pairs(
@@ -137,6 +215,25 @@ def band(found: Sequence[tuple[Values, Sequence[tuple[Values, Values]]]], output
             high = np.max([span[1] for span in spans], axis=0)
             ends |= {LOW + name: low, HIGH + name: np.minimum(high, 1.0) if name in AT_MOST_ONE else high}
     return ends
+
+
+def losses_at_ends(found: Sequence[tuple[Values, Sequence[tuple[Values, Values]]]]) -> dict[str, Any]:
+    """Power loss of every group and at both ends of every axis, by `loss_name`."""
+    named: dict[str, Any] = {}
+    for group, (own, axes) in enumerate(found):
+        named[loss_name(group)] = own["power_loss"]
+        for axis, ends in enumerate(axes):
+            named |= {loss_name(group, axis, end): one["power_loss"] for end, one in zip((LOW, HIGH), ends)}
+    return named
+
+
+def loss_name(group: int, axis: int | None = None, end: str = "") -> str:
+    """Name of the power loss of a group, or at an end of one of its axes.
+
+    >>> loss_name(0), loss_name(1, 2, LOW)
+    ('loss_at_0', 'loss_at_1_2_lowest')
+    """
+    return f"{LOSS_AT}{group}" if axis is None else f"{LOSS_AT}{group}_{axis}_{end.rstrip('_')}"
 
 
 def _span(own: np.ndarray, axes: Sequence[tuple[np.ndarray, np.ndarray]]) -> tuple[np.ndarray, np.ndarray]:

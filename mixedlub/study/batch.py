@@ -25,7 +25,7 @@ from mixedlub.laws.contact import asperity_load_ratio, asperity_real_pressure, m
 from mixedlub.laws.load import carries_load
 from mixedlub.laws.loss import over_path
 from mixedlub.running.cluster import on_cluster
-from mixedlub.study.bands import band
+from mixedlub.study.bands import band, losses_at_ends
 from mixedlub.study.columns import loss_of
 from mixedlub.study.derived import following
 from mixedlub.study.pieces import PIECE_PAIRINGS, PIECE_POINTS, Block, Inputs, reach, split, taken
@@ -114,8 +114,8 @@ def compute(plan: Plan, block: Block) -> Found:
     spread = []
     for group in plan.bands:
         own = with_following(found) if group is plan.bands[0] else at(group.own)
-        spread.append((own, [(at(low), at(high)) for low, high in group.axes]))
-    return found | band(spread, tuple(spread[0][0]))
+        spread.append((own, [(at(axis.low), at(axis.high)) for axis in group.axes]))
+    return found | band(spread, tuple(spread[0][0])) | losses_at_ends(spread)
 
 
 def _computed(plan: Plan, block: Block) -> Found:

@@ -34,8 +34,8 @@ def fingerprint(plan: Plan) -> str:
 def input_fingerprint(plan: Plan) -> str:
     """Hash of every number that affects the results."""
     digest = hashlib.sha256()
-    moved = (inputs for group in plan.bands for inputs in (group.own, *itertools.chain(*group.axes)))
-    for inputs in (plan.inputs, *moved):
+    ends = ([group.own, *(end for axis in group.axes for end in (axis.low, axis.high))] for group in plan.bands)
+    for inputs in (plan.inputs, *itertools.chain(*ends)):
         for name in sorted(inputs):
             value = np.ascontiguousarray(inputs[name], dtype=float)
             digest.update(f"{name}{value.shape}".encode())

@@ -37,8 +37,9 @@ from mixedlub.rig.waves import WaveRows, wave_rows
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, report
 from mixedlub.schema.table_files import escaped
-from mixedlub.study.bands import Group, groups
+from mixedlub.study.bands import Group, groups, uncertain_inputs
 from mixedlub.study.chosen_effects import chosen_effects, with_traction
+from mixedlub.study.costs import check_costs
 from mixedlub.study.friction_options import (
     check_coefficients,
     check_friction,
@@ -308,6 +309,8 @@ def _resolve(name: str, given: StudyFile, rig: Rig) -> Study:
         text = f"holds for contact ratios up to {MOST_CONTACT_RATIO:g}, not {pair.contact_ratio:.4g}; left out"
         report(finding("loss_factor_left_out", text, "loss_factor_H_V"))
     check_coefficients(options)
+    check_costs(file.costs, used)
+    uncertain = uncertain_inputs(file)
     points = rig.mesh(options.path_points, options.face_slices)
     oil = rig.oil()
     check_oil(friction.find(options.friction), options.friction_coefficients, oil)
@@ -333,12 +336,12 @@ def _resolve(name: str, given: StudyFile, rig: Rig) -> Study:
     full = None if options.base == "formulas" else _full_base(file, rig, oil, inputs)
     if full is not None:
         inputs |= {**FULL_INPUTS, "entering_stress": inputs["eyring_stress"]}
-    moved = groups(options.bands, rig, surfaces, chosen, of_surfaces)
     flat = None if waves is None else waves.tables(options.flattening, options.short_cutoff_over_half_width)
     if any(HEAT in e.reads for e in find(sorted(file.effects), "effects", laws)):
         chain = study_chain(options, {} if heights is None else heights.laws(), full, flat)
         inputs |= heat_inputs(Model(chain, tuple(inputs), (LOSS,)), inputs, shape, points.position.size)
     active, parameters = chosen_effects(file, inputs, laws)
+    moved = groups(options.bands, rig, surfaces, chosen, of_surfaces, uncertain, inputs)
     inputs |= rating_inputs(inputs, parameters)
     plan = Plan(inputs, options, parameters, shape, points.position.size, moved, heights, file.safety, laws, full, flat)
     check_friction(file, plan.model())

@@ -30,7 +30,7 @@ from roughness.mccool import nayak_parameter, summit_density, summit_radius
 
 SCHEMA = "mixedlub-study-result/1"
 GIVEN, RESOLVED = "study.toml", "resolved.json"
-TABLES = ("results", "fits", "curves")
+TABLES = ("results", "fits", "ranking", "comparisons", "curves")
 """Tables of a result."""
 WRITTEN = ("index.html", GIVEN, RESOLVED)
 """Other files of a result outside the folder of figures."""

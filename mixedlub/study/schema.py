@@ -14,7 +14,7 @@ from mixedlub.friction import BASE, PLACES, catalogue
 from mixedlub.schema.friction_file import coefficients_of
 from mixedlub.schema.section import Number, NumberOrName, Section, Whole, check_keys_of, key, table, with_ranges
 from mixedlub.schema.surface_file import SurfaceSection
-from mixedlub.schema.system_file import BASES, CUTOFF_SHARE, FLATTENING, Gears, RigFile
+from mixedlub.schema.system_file import BASES, CUTOFF_SHARE, FLATTENING, Gears, RigFile, Uncertainty
 
 MOST_LEVELS = 100_000
 
@@ -258,6 +258,14 @@ class StudyFile(RigFile):
         "every torque at every speed and oil temperature; each a list, or { from = LOW, to = HIGH, count = N }"
     )
     options: Options = key("readings of the model on which its authors leave room", Options())
+    uncertainty: Uncertainty = key(
+        "one standard deviation of inputs common to all pairings, for bands and ranking; 0: known", Uncertainty()
+    )
+    costs: dict[str, Number] = key(
+        "SURFACE = relative cost of the finish of one flank, for the map of saving against cost",
+        {},
+        example={"ground": 1.0, "polished": 2.5},
+    )
     safety: Safety | None = key("limits against scuffing and micropitting", None)
     effects: dict[str, dict[str, NumberOrName]] = key(
         "EFFECT = { PARAMETER = VALUE }: physics beyond the base model, as `mixedlub effects` lists it; "

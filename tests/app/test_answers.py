@@ -156,6 +156,19 @@ def test_a_ranking_counts_where_a_pairing_is_best_and_inside_the_range():
         ranking(table.drop(columns="power_loss_W"))
 
 
+def test_costs_and_uncertainties_of_the_form_reach_the_study():
+    texts = {**study_form.START, "uncertainty.viscosity": "0.06"}
+    costs = {f"cost.shipped:{name}": cost for name, cost in (("0036", "3"), ("0258", "2"), ("0450", "1"))}
+    study = study_form.study_of({**texts, **costs}, {})
+    assert study["uncertainty"] == {"viscosity": 0.06}
+    assert study["costs"] == {"0036": 3, "0258": 2, "0450": 1}
+    study_form.study_text(study)
+    with pytest.raises(InputError, match="costs: needs the cost of every surface in a pairing; missing: 0036"):
+        study_form.study_text(study_form.study_of({**texts, **costs, "cost.shipped:0036": ""}, {}))
+    with pytest.raises(InputError, match=r"costs\.0036"):
+        study_form.study_text(study_form.study_of({**texts, **costs, "cost.shipped:0036": "cheap"}, {}))
+
+
 def test_a_row_over_cutoffs_is_the_record_at_that_cutoff():
     trace = shipped("shipped:0258")
     row = next(one for one in over_cutoffs(trace, 0.4e-3) if one["cutoff_mm"] == 0.4)

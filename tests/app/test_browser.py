@@ -276,9 +276,12 @@ def test_pairings_are_ranked_by_their_mean_loss(page, served):
         cells = text.split()
         assert cells[1:3] == [pinion, gear]
         assert float(cells[3]) == pytest.approx(loss, rel=1e-3)
-    assert page.locator("#ranking img.plot").evaluate("one => one.complete && one.naturalWidth > 100")
+    for plot in page.locator("#ranking img.plot").all():
+        assert plot.evaluate("one => one.complete && one.naturalWidth > 100")
+    assert page.locator("#ranking img.plot").count() == 3
     ranking = fetched(f"{served[0]}/api/pairings/{id}")["ranking"]
     assert ranking[0]["mean_loss_W"] == pytest.approx(expected[0][0])
+    assert ranking[0]["place_low90"] == 1
     assert page.frame_locator("iframe").locator("h1").text_content() == "Pairings"
 
 

@@ -41,7 +41,14 @@ def test_page_needs_nothing_from_elsewhere(page):
     assert "<script" not in text
     assert not re.search(r"""(?:src|href|url)\s*[=(]\s*["']?(?:https?:)?//""", text)
     links = {link.partition(",")[0] for link in re.findall(r'href="([^"#][^"]*)"', text)}
-    assert links == {"results.csv", "results.parquet", "resolved.json", "figures/", "data:text/csv;charset=utf-8"}
+    assert links == {
+        "results.csv",
+        "ranking.csv",
+        "results.parquet",
+        "resolved.json",
+        "figures/",
+        "data:text/csv;charset=utf-8",
+    }
 
 
 def test_page_escapes_what_the_user_wrote(page):

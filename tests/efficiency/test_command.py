@@ -29,8 +29,20 @@ def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_it_writes_tables_and_figures(out: Path) -> None:
     assert {path.stem for path in out.glob("*.csv")} == TABLES | {"duty", "duty_summary"}
     assert {path.name for path in (out / "figures").iterdir()} == {
-        *("map.svg", "breakdown.svg", "mesh_cycle.svg", "tooth_pair.svg", "efficiency.svg")
+        *("map.svg", "breakdown.svg", "mesh_cycle.svg", "tooth_pair.svg", "efficiency.svg", "loss_torque.svg")
     }
+
+
+def test_the_page_holds_all_figures_tables_and_inputs(out: Path) -> None:
+    page = (out / "index.html").read_text(encoding="utf-8")
+    for name in ("map", "breakdown", "efficiency", "loss_torque", "mesh_cycle", "tooth_pair"):
+        assert f'<figure id="{name}">' in page
+    for text in ("Mesh a", "Mesh b", "Where the input drives", "duty cycle:", "Breakdown"):
+        assert text in page
+    assert "src=" not in page
+    last = pd.read_csv(out / "stages.csv")["stage_loss_W"].iloc[0]
+    assert f"<td>{last:.5g}</td>" in page
+    assert (out / "efficiency.toml").read_text(encoding="utf-8") == (out.parent / "efficiency.toml").read_text("utf-8")
 
 
 def test_columns_have_their_unit(out: Path) -> None:
@@ -166,11 +178,10 @@ FRONT = "stages.a.bearings.front"
         ("stages.a.gears.teeth", [5, 60], "stages.a.gears.centre_distance_mm: 91.5: the centre distance must exceed"),
         ("conditions.torque_Nm", [1e300], "no finite loss at 1e+300 N m"),
         ("stages.a.gears", {"preset": "fzg_z"}, "no such gears; nearest known: 'fzg_"),
-        ("conditions.torque_Nm", [-5.0, 10.0], "torque_Nm: -5 is below 0; name the side that drives"),
         ("conditions.speed_rpm", [0.0, 100.0], "speed_rpm: 0; a shaft at rest has no loss and no efficiency"),
         ("conditions.speed_rpm", [100.0, 100.0], "each level once, but 100.0 appears again"),
         ("conditions.speed_rpm", {"from": 1, "to": 9, "count": 100_000}, "at most 250000 conditions, not 300000"),
-        ("conditions.torque_Nm", [0.0], "all torques of the map are 0"),
+        ("conditions.torque_Nm", [0.0], "no torque of the map is above 0"),
         ("duty", DUTY | {"duration_h": [1.0]}, "the three lists go together, but have 2, 2 and 1 entries"),
         ("duty", DUTY | {"duration_h": [1.0, -1.0]}, "duration_h"),
         ("stages", {}, "stages"),

@@ -21,11 +21,11 @@ def spectrum(q):
     return 1e-20 * (1 + (f * 40e-6) ** 2) ** -1.3 * np.exp(-((f * 6e-6) ** 2))
 
 
-def true_moments(scale=1.0):
+def true_moments(scale=1.0, short=SHORT):
     """m0, m2, m4 of the spectrum after the Gaussian filters of ISO 16610-21, as differences see them."""
     step = 2 * np.pi / (200 * POINTS * STEP)
     q = step * np.arange(1, 100 * POINTS)
-    low = np.exp(-np.pi * (ALPHA * SHORT * q / (2 * np.pi)) ** 2)
+    low = np.exp(-np.pi * (ALPHA * short * q / (2 * np.pi)) ** 2)
     high = 1 - np.exp(-np.pi * (ALPHA * LONG * q / (2 * np.pi)) ** 2)
     power = scale * spectrum(q) * (low * high) ** 2 * step
     slope = 2 * np.sin(q * STEP / 2) / STEP

@@ -1,0 +1,160 @@
+"""Coast and oil temperature in one map: the numbers of a gearbox turned round, and of files at each temperature."""
+
+from __future__ import annotations
+
+import copy
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import mixedlub as ml
+from mixedlub.cli import main
+from mixedlub.efficiency import read_gearbox
+from mixedlub.efficiency.table import duty_summary, loss_map, map_table
+from profiles.errors import InputError
+from tests.efficiency.gearboxes import AFTER, PARTS, STAGE, gearbox, gearbox_file, written
+from tests.efficiency.planetary import SIMPLE, mesh, planetary_box
+
+COAST = {"torque_Nm": [-200.0, -50.0, 0.0, 50.0, 200.0], "speed_rpm": [500.0, 3000.0]}
+
+
+def test_in_coast_the_losses_are_those_of_the_gearbox_turned_round(tmp_path: Path) -> None:
+    there = gearbox(tmp_path, STAGE | PARTS, STAGE | AFTER, conditions=COAST).map()
+    turned = gearbox_file(STAGE | AFTER | {"driving": "gear"}, STAGE | PARTS | {"driving": "gear"})
+    back = read_gearbox(written(tmp_path, turned))[0]
+    coast = there.torque < 0.0
+    speed = there.speed[coast] / there.gearbox.ratio
+    found = back.losses(-there.output_power[coast] / speed, speed)
+    assert found.total() == pytest.approx(there.total()[coast], rel=1e-5)
+    assert found.output_power == pytest.approx(-there.input_power[coast], rel=1e-5)
+    assert there.efficiency()[coast] == pytest.approx(found.efficiency(), rel=1e-6)
+    drive = gearbox(tmp_path, STAGE | PARTS, STAGE | AFTER, conditions=COAST | {"torque_Nm": [0.0, 50.0, 200.0]}).map()
+    assert there.total()[~coast] == pytest.approx(drive.total(), rel=1e-12)
+
+
+def helical(**thrust: str) -> dict[str, Any]:
+    """A stage on placed bearings: one fixed on the pinion's shaft, one for each side on the gear's."""
+    place = {"pinion": ("fixed", None), "gear": ("negative", "positive")}
+    bearings = {
+        f"{shaft}_{at}": {"law": "palmgren", "coefficients": {"f0": 2.0, "f1": 4e-4}, "shaft": shaft}
+        | {"bore_mm": 35, "outside_diameter_mm": 72, "position_mm": at}
+        | ({} if axial is None else {"axial": axial})
+        for shaft, both in place.items()
+        for at, axial in zip((-30.0, 40.0), both, strict=True)
+    }
+    gears = {"teeth": [23, 67], "normal_module_mm": 2.0, "helix_angle_deg": 20.0, "face_width_mm": 26.0}
+    return STAGE | {"gears": gears, "bearings": bearings, "pinion_thrust": "positive"} | thrust
+
+
+def test_in_coast_the_thrust_is_on_the_other_bearing(tmp_path: Path) -> None:
+    box = gearbox(tmp_path, helical(), conditions=COAST)
+    assert box.coasting is not None
+    loads = [{part.name: part.load for part in one.stages[0].parts} for one in (box, box.coasting)]
+    thrust = [{name: axial for name, (_, axial) in one.items()} for one in loads]
+    assert thrust[0]["gear_-30.0"] > 0.0 == thrust[0]["gear_40.0"]
+    assert thrust[1]["gear_40.0"] == pytest.approx(thrust[0]["gear_-30.0"])
+    assert thrust[1]["gear_-30.0"] == 0.0
+    other = gearbox(tmp_path, helical(pinion_thrust="negative") | {"driving": "gear"})
+    radial = {part.name: part.load[0] for part in other.stages[0].parts}
+    for name, (load, _) in loads[1].items():
+        assert load == pytest.approx(radial[name])
+
+
+def test_a_thrust_that_coast_leaves_uncarried_is_one_sentence(tmp_path: Path) -> None:
+    stage = copy.deepcopy(helical())
+    del stage["bearings"]["gear_40.0"]["axial"]
+    gearbox(tmp_path, stage)
+    with pytest.raises(
+        InputError, match="no bearing takes the axial force, which points to the positive side in coast"
+    ):
+        gearbox(tmp_path, stage, conditions=COAST)
+
+
+def test_a_planetary_stage_coasts_with_input_and_output_exchanged(tmp_path: Path) -> None:
+    box = planetary_box(tmp_path, SIMPLE, conditions=COAST)
+    found = box.losses(np.array([-100.0]), np.array([200.0]))
+    section = SIMPLE | {"input": box.stages[0].driven, "output": box.stages[0].driving}
+    turned = planetary_box(tmp_path, section)
+    speed = found.speed / box.ratio
+    there = turned.losses(-found.output_power / speed, speed)
+    assert there.total() == pytest.approx(found.total(), rel=1e-5)
+    assert there.output_power == pytest.approx(np.array([100.0 * 200.0]), rel=1e-5)
+
+
+def test_a_train_that_locks_in_coast_is_one_sentence(tmp_path: Path) -> None:
+    meshes = {
+        "first": mesh("a", "planet", teeth=(50, 49), normal_module_mm=1.0),
+        "second": mesh("planet", "b", teeth=(50, 51), normal_module_mm=0.98, centre_distance_mm=49.5),
+    }
+    stage = SIMPLE | {
+        "input": "carrier",
+        "output": "a",
+        "fixed": "b",
+        "planet_count": 1,
+        "meshes": meshes,
+        "others": {},
+    }
+    box = planetary_box(tmp_path, stage, conditions=COAST)
+    with pytest.raises(InputError, match="in coast the losses take all power of the output"):
+        box.losses(np.array([-0.002]), np.array([125.0]))
+
+
+def test_an_axis_of_oil_temperature_has_the_numbers_of_a_file_at_each(tmp_path: Path) -> None:
+    box = gearbox(tmp_path, STAGE | PARTS, conditions=COAST | {"oil_temperature_C": [40.0, 90.0]})
+    found = map_table(box.map())
+    assert found["oil_temperature_C"].tolist() == [40.0] * 10 + [90.0] * 10
+    for oil in (40.0, 90.0):
+        alone = gearbox(tmp_path, STAGE | PARTS | {"oil_temperature_C": oil}, conditions=COAST).map()
+        here = found[found["oil_temperature_C"] == oil]
+        assert here["total_loss_W"].to_numpy() == pytest.approx(alone.total(), rel=1e-12)
+        assert here["validity"].tolist() == list(alone.validity)
+    table = loss_map(box.map())
+    assert list(table)[:3] == ["input_speed_rpm", "input_torque_Nm", "oil_temperature_C"]
+    assert (table["power_loss_W"] > 0.0).all()
+
+
+def test_python_has_the_axis_of_oil_temperature(tmp_path: Path) -> None:
+    path = written(tmp_path, gearbox_file(STAGE, conditions=COAST | {"oil_temperature_C": [40.0, 90.0]}))
+    found = ml.gearbox_efficiency(path)["total_loss_W"]
+    assert found.dims == ("oil_temperature_C", "torque_Nm", "speed_rpm")
+    cold, hot = (found.sel(oil_temperature_C=oil, torque_Nm=-50.0, speed_rpm=3000.0).item() for oil in (40.0, 90.0))
+    assert cold > hot > 0.0
+
+
+def test_energy_of_coast_is_taken_in_at_the_output(tmp_path: Path) -> None:
+    box = gearbox(tmp_path, STAGE | PARTS, conditions=COAST)
+    found = box.losses(np.array([100.0, -100.0]), np.array([100.0, 100.0]))
+    row = duty_summary(found, np.array([1.0, 1.0])).iloc[0]
+    taken = 100.0 * 100.0 + 100.0 * 100.0 + found.total()[1]
+    assert row["input_energy_kWh"] == pytest.approx(taken / 1000.0)
+    assert row["mean_gearbox_efficiency_percent"] == pytest.approx(100.0 * (1.0 - found.total().sum() / taken))
+
+
+def test_the_command_draws_both_ends_of_the_oil(tmp_path: Path) -> None:
+    path = written(tmp_path, gearbox_file(STAGE, conditions=COAST | {"oil_temperature_C": [40.0, 60.0, 90.0]}))
+    assert main(["efficiency", str(path), "--out", str(tmp_path / "out"), "--xlsx"]) == 0
+    names = {path.stem for path in (tmp_path / "out" / "figures").iterdir()}
+    assert {"map_40C", "map_90C", "loss_torque_40C", "oil_temperature"} <= names
+    assert "map_60C" not in names
+    page = (tmp_path / "out" / "index.html").read_text(encoding="utf-8")
+    assert "Where the output drives, the gearbox efficiency lies between" in page
+    assert "Oil at 90 °C." in page
+    sheet = pd.read_excel(tmp_path / "out" / "results.xlsx", sheet_name="map")
+    assert len(sheet) >= 30
+
+
+@pytest.mark.parametrize(
+    ("conditions", "rule"),
+    [
+        ({"oil_temperature_C": [40.0, 40.0]}, "oil_temperature_C: each level once, but 40.0 appears again"),
+        ({"torque_Nm": [-50.0, 0.0]}, "no torque of the map is above 0"),
+        ({"oil_temperature_C": []}, "oil_temperature_C"),
+        ({"oil_temp_C": [40.0]}, "'oil_temperature_C'"),
+    ],
+)
+def test_wrong_conditions_are_refused(tmp_path: Path, conditions: dict[str, Any], rule: str) -> None:
+    with pytest.raises(InputError, match=rule):
+        gearbox(tmp_path, STAGE, conditions=COAST | conditions)
