@@ -37,8 +37,8 @@ CAPTIONS = {
     "mesh_cycle": "Loss, tooth efficiency, friction coefficient and friction force of each mesh over one base pitch, "
     "at the condition of the breakdown.",
     "tooth_pair": "Normal and friction force of one tooth pair of each stage over the roll angle of the pinion.",
-    "thermal": "Temperature of the sump at which all losses leave as heat: over speed at some torques, and over the time of "
-    "the duty cycle.",
+    "thermal": "Temperature of the sump at which all losses leave as heat: over speed at some torques, and over the "
+    "time of the duty cycle.",
 }
 """Captions of the figures, by name without oil temperature."""
 
