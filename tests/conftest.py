@@ -35,7 +35,7 @@ def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
             (folder / f"{drawn.name}.{form}").touch()
         return ""
 
-    monkeypatch.setattr("mixedlub.report.page._saved", saved)
+    monkeypatch.setattr("mixedlub.report.html._saved", saved)
 
 
 @pytest.fixture(scope="session")

@@ -1,4 +1,4 @@
-"""Chain whose asperities have the roughness that is left inside the film."""
+"""Chain with the roughness left inside the film."""
 
 from __future__ import annotations
 
@@ -116,9 +116,9 @@ WORDS = r"""Moment of the roughness inside the film, both surfaces together, or 
 
 
 def with_flattening(chain: Chain, tables: Flattening) -> Chain:
-    """Chain of a line contact whose asperities have the moments inside the film.
+    """Chain of a line contact, its asperities with the moments inside the film.
 
-    The film, its roughness outside and the film ratio stay those of the surfaces as measured. A balance of the load
+    The film, its roughness outside and the film ratio stay as measured. A balance of the load
     that is added later reads the flattened asperities too.
 
     >>> from mixedlub.base_model.chains import LINE

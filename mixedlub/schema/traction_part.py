@@ -19,6 +19,8 @@ LIMIT = {
     "limit_offset": "offset",
 }
 """Keys of the part and parameters of the effect `limiting_shear_stress`."""
+MOST_PRESSURE = 8.0
+"""Judgement. Largest Hertz pressure (GPa) of readings: hard steel yields far below."""
 WITHOUT_RATE = {"rate_exponent": 0.0, "rate_onset": 8.0}
 """Definition. Parameters of `shear_law` for a stress independent of the shear rate."""
 FITTED: Mapping[str, str] = {
@@ -57,7 +59,7 @@ class Traction(Section):
     def _possible_law(self) -> Traction:
         over = self.limit_over_pressure
         rules = (
-            ("eyring_stress_MPa", self.eyring_stress_MPa.value > 0.0, "must be above 0"),
+            ("eyring_stress_MPa", 0.02 <= self.eyring_stress_MPa.value <= 500.0, "must be from 0.02 to 500 MPa"),
             ("limit_over_pressure", over is None or 0.0 < over.value < 1.0, "must be between 0 and 1"),
             ("limit_sharpness", self.limit_sharpness.value > 0.0, "must be above 0"),
             ("limit_fall_per_K", self.limit_fall_per_K.value >= 0.0, "must not be below 0"),
@@ -70,6 +72,8 @@ class Traction(Section):
             low, high = getattr(self, name)
             if low > high:
                 raise ValueError(f"{name}: {high:g}: must be at least {low:g}, the first of the two")
+        if not 0.0 < self.pressure_GPa[1] <= MOST_PRESSURE:
+            raise ValueError(f"pressure_GPa: {self.pressure_GPa[1]:g}: must be above 0, at most {MOST_PRESSURE:g} GPa")
         if over is None and (lone := sorted(self.model_fields_set & set(LIMIT) - {"limit_over_pressure"})):
             raise ValueError(f"{lone[0]} needs limit_over_pressure")
         return self

@@ -336,12 +336,13 @@ def _resolve(name: str, given: StudyFile, rig: Rig) -> Study:
     full = None if options.base == "formulas" else _full_base(file, rig, oil, inputs)
     if full is not None:
         inputs |= {**FULL_INPUTS, "entering_stress": inputs["eyring_stress"]}
+    # Bands add rows of waves: the tables of waves come after them.
+    moved = groups(options.bands, rig, surfaces, chosen, of_surfaces, uncertain, inputs)
     flat = None if waves is None else waves.tables(options.flattening, options.short_cutoff_over_half_width)
     if any(HEAT in e.reads for e in find(sorted(file.effects), "effects", laws)):
         chain = study_chain(options, {} if heights is None else heights.laws(), full, flat)
         inputs |= heat_inputs(Model(chain, tuple(inputs), (LOSS,)), inputs, shape, points.position.size)
     active, parameters = chosen_effects(file, inputs, laws)
-    moved = groups(options.bands, rig, surfaces, chosen, of_surfaces, uncertain, inputs)
     inputs |= rating_inputs(inputs, parameters)
     plan = Plan(inputs, options, parameters, shape, points.position.size, moved, heights, file.safety, laws, full, flat)
     check_friction(file, plan.model())

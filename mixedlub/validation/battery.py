@@ -285,7 +285,7 @@ def truth_of(order: Order, sample: Sample, outliers: Sequence[int]) -> dict[str,
 
 
 def beyond(columns: Mapping[str, np.ndarray], hidden: np.ndarray) -> np.ndarray:
-    """Readings with a numeric condition beyond those of the visible readings.
+    """Readings with a numeric condition beyond the visible ones.
 
     >>> load = {"load_N": np.array([10.0, 20.0, 30.0])}
     >>> beyond(load, np.array([False, False, True])).tolist()

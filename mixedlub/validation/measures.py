@@ -75,7 +75,7 @@ def coverage(truth: Truth, answer: Answer) -> float:
 
 
 def physics(label: frozenset[str], truth: Truth) -> frozenset[str]:
-    """Missing physics named by an explanation: without laws if the rig follows other laws, and what comes along."""
+    """Missing physics named by an explanation: without laws if the rig follows other laws, and their companions."""
     if not truth.laws:
         return label
     return label - LAWS - truth.beside if label & truth.label else label - LAWS or frozenset({"none"})

@@ -116,7 +116,7 @@ class Friction(Section):
 
     @property
     def base(self) -> dict[str, float]:
-        """Numbers of the base friction by the names of its law, 0 for those that a law does not take."""
+        """Numbers of the base friction by the names of its law, 0 for the others."""
         values = {name: getattr(self, name) or 0.0 for name in COEFFICIENTS}
         return {name.removesuffix("_m_s"): value for name, value in values.items()}
 

@@ -67,8 +67,9 @@ def base_friction(
 
     Source: form of ISO/TR 14521; its numbers, by oil, wheel and supply of oil, are the user's.
 
-    >>> base_friction(np.array([0.0, 0.8, 1e9]), constant=0.02, gain=0.01, shift=0.2, exponent=1.0, largest=0.06)
-    array([0.06, 0.03, 0.02])
+    >>> own = {"constant": 0.02, "gain": 0.01, "shift": 0.2, "exponent": 1.0, "largest": 0.06}
+    >>> base_friction(np.array([0.0, 0.8, 1e9]), **own).round(6).tolist()
+    [0.06, 0.03, 0.02]
     """
     return np.minimum(constant + gain / (speed + shift) ** exponent, largest)
 

@@ -200,6 +200,8 @@ def test_study_writes_where_it_is_told(study, tmp_path):
         "fits.csv",
         "fits.parquet",
         "origin.json",
+        "ranking.csv",
+        "ranking.parquet",
         "resolved.json",
         "results.csv",
         "results.parquet",

@@ -63,26 +63,26 @@ OF_A_TRACE = (
     *("m2_along", "m4_along_per_um2", "lay"),
 )
 """Keys of a surface that go with files in place of its moments, or with a known lay."""
-IN_PLACE = "known_pressure_viscosity"
-"""Key of an oil that takes the place of two coefficients."""
+IN_PLACE = ("known_pressure_viscosity", "traction")
+"""Keys of an oil that take the place of its coefficients of pressure and of its Eyring stress."""
 OF_YIELDING = "hardness_GPa"
 """Key that goes with asperities that yield, which are not the default."""
 
 
 def test_all_that_a_study_leaves_out_is_valid(tmp_path):
     main(["new", "study", "--out", str(tmp_path)])
-    file = uncommented(tmp_path / "study.toml", *OF_A_TRACE, "pinion", "gear", OF_YIELDING, IN_PLACE)
+    file = uncommented(tmp_path / "study.toml", *OF_A_TRACE, "pinion", "gear", OF_YIELDING, *IN_PLACE)
     parsed = parse(StudyFile, read_toml(file), "study.toml")
     for table in tables(StudyFile):
         if table.name in ("", "gears", "lubricant", "conditions", "options"):
             values = parsed if not table.name else getattr(parsed, table.name)
-            assert values.model_fields_set == set(table.model.model_fields) - {OF_YIELDING, IN_PLACE}
+            assert values.model_fields_set == set(table.model.model_fields) - {OF_YIELDING, *IN_PLACE}
 
 
 @pytest.mark.parametrize("name", NATIVE)
 def test_all_that_a_case_leaves_out_is_valid(tmp_path, name):
     main(["new", "case", "--kind", name, "--out", str(tmp_path)])
-    file = uncommented(tmp_path / "system.toml", *OF_A_TRACE, "check", "transverse_radius_mm", IN_PLACE)
+    file = uncommented(tmp_path / "system.toml", *OF_A_TRACE, "check", "transverse_radius_mm", *IN_PLACE)
     parsed = parse(system_file.System, read_toml(file), "system.toml")
     assert parsed.description
     assert parsed.uncertainty.model_fields_set == set(system_file.Uncertainty.model_fields)

@@ -174,10 +174,9 @@ def vague(d: Diagnosis, spread: float) -> Diagnosis:
     """The same answer, its effects' parameters known to so many standard deviations of their priors."""
     key = d.posterior.verdict
     fit = d.refined[key]
-    covariance = fit.covariance.copy()
-    place = np.arange(d.search.problem.calibration_size, covariance.shape[0])
-    covariance[place, place] = spread**2
-    return replace(d, refined={**d.refined, key: replace(fit, covariance=covariance)})
+    variance = fit.variance.copy()
+    variance[d.search.problem.calibration_size :] = spread**2
+    return replace(d, refined={**d.refined, key: replace(fit, variance=variance)})
 
 
 @pytest.mark.parametrize(("spread", "marked"), [(0.95, True), (0.3, False)])

@@ -168,7 +168,7 @@ def test_a_shifted_zero_is_named_and_predicted(tmp_path, capsys):
     capsys.readouterr()
 
 
-@pytest.mark.parametrize("index", [2, 14])
+@pytest.mark.parametrize("index", [2, pytest.param(14, marks=pytest.mark.long)])
 def test_the_same_numbers_as_a_table_get_the_same_verdict(tmp_path, index):
     native, effects = deal(index, 11, tmp_path / "native")
     one = compared(native, tmp_path / "tables", effects)

@@ -15,6 +15,7 @@ from mixedlub.validation.baselines import BASELINES, recalibrate
 from mixedlub.validation.battery import generate, make, plan
 from mixedlub.validation.measures import held_out
 from mixedlub.validation.oracle import oracle
+from mixedlub.validation.outside import KINDS as UNLISTED
 from mixedlub.validation.rigs import CONTACTS, OTHERS
 from mixedlub.validation.run import BROKEN, Steady, judge, unsealed, validate
 from profiles.errors import InputError
@@ -162,11 +163,13 @@ def test_counts_by_kind_wrong_answers_and_break_downs(named_orders, tmp_path):
     ("words", "asked"),
     [
         ([], {"cases": 240, "kinds": CONTACTS, "baselines": True}),
-        (["--quick"], {"cases": 24, "kinds": CONTACTS, "baselines": False}),
+        (["--quick"], {"cases": 10, "kinds": CONTACTS, "baselines": False}),
         (["--rigs"], {"cases": 200, "kinds": OTHERS, "baselines": False}),
         (["--rigs", "--quick"], {"cases": 25, "kinds": OTHERS, "baselines": False}),
         (["--kinds", "film,disc", "--quick"], {"cases": 25, "kinds": ("disc", "film"), "baselines": False}),
         (["--kinds", "gear_pair", "--cases", "7"], {"cases": 7, "kinds": ("gear_pair",), "baselines": True}),
+        (["--outside"], {"cases": 100, "kinds": UNLISTED, "baselines": False, "dealt": "plan_outside"}),
+        (["--outside", "--quick"], {"cases": 10, "kinds": UNLISTED, "baselines": False, "dealt": "plan_outside"}),
         (["--solved", "--quick"], {"cases": 12, "kinds": CONTACTS, "baselines": False, "dealt": "plan_solved"}),
         (["--worlds"], {"cases": 240, "kinds": WORLDS, "baselines": False, "dealt": "plan_worlds"}),
         (["--worlds", "--quick"], {"cases": 25, "kinds": WORLDS, "baselines": False, "dealt": "plan_worlds"}),

@@ -86,7 +86,7 @@ def _scale(pressure: np.ndarray, **law: Any) -> np.ndarray:
 
 
 def _cold_limit(pressure: np.ndarray, **law: Any) -> np.ndarray:
-    """Upper bound of the stress: the limit of the cold oil, whose limit is largest."""
+    """Upper bound of the stress: the limit of the cold oil, the largest one."""
     return stresses(pressure, np.full_like(pressure, ZERO_CELSIUS), **law)[1][0]
 
 

@@ -31,7 +31,7 @@ SETS: tuple[dict[str, Any], ...] = (
      "pressure_angle_deg": 25.0, "face_width_mm": 20.0, "tip_diameter_mm": {"sun": 66.5, "planet": 52.5, "ring": 157.9},
      "torques": (80.0, 450.0), "speeds": (800.0, 7000.0)},
 )  # fmt: skip
-"""Planetary sets; torque and speed of the sun, whose ring is held."""
+"""Planetary sets; torque and speed of the sun; the ring is held."""
 
 
 def from_carrier(teeth: Mapping[str, int], planets: int, torque: float, speed: float) -> dict[str, tuple[float, float]]:

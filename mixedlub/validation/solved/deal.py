@@ -14,7 +14,7 @@ from profiles.errors import InputError
 DISCS = 2 / 3
 """Share of discs where both kinds are dealt."""
 FULL_BASE = 3
-"""Every third case declares full solutions as its base, if they do not contain what is concealed."""
+"""Every third case declares full solutions as its base, unless they contain the concealed part."""
 
 
 def plan_solved(seed: int, cases: int, kinds: Sequence[str] = ALWAYS) -> list[Order]:

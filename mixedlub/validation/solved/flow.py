@@ -12,7 +12,7 @@ from mixedlub.validation.solved.heat import HEIGHTS, LAYERS, SQUARES, Warmth
 LEAST_STRESS = 1e3
 """Stress of a pressure gradient (Pa) below which flow is linear in the gradient."""
 MOST = 1e12
-"""Largest mobility over that of a Newtonian film."""
+"""Largest mobility over the Newtonian one."""
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(6)
 WEIGHTS = 0.5 * WEIGHTS
 STEP = 0.001
@@ -69,7 +69,7 @@ def flow(
 
 
 def _sheared(fluid: Fluid, pressure: np.ndarray, newton: np.ndarray, push: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Stress of the slip, and mobility over that of a Newtonian film, at a wall stress of the gradient."""
+    """Stress of the slip, and mobility over the Newtonian one, at a wall stress of the gradient."""
     law, across = fluid.law, push[:, None] * POINTS
     stress = law.stress(newton, pressure)
     for _ in range(2):

@@ -236,7 +236,7 @@ def solve(
 ) -> Solution:
     """Film, friction and temperatures of a line contact; an error if the iteration does not settle.
 
-    ``bulk``: temperatures of both bodies (C), by default that of the oil.
+    ``bulk``: temperatures of both bodies (C), by default the oil's.
     """
     rest = np.full(1, place.celsius)
     at_rest, at_mega = (float(fluid.log_viscosity(np.full(1, p), rest)[0]) for p in (0.0, 1e6))
