@@ -15,6 +15,7 @@ release = version = installed_version()
 extensions = [
     "myst_parser",
     "sphinx.ext.autodoc",
+    "short_signatures",
     "run_blocks",
     "svg_equations",
     "generated",

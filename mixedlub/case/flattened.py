@@ -7,7 +7,7 @@ from mixedlub.case.base import Base
 from mixedlub.chain.model import Chain
 from mixedlub.kinds import Kind
 from mixedlub.rig.rig import Rig
-from mixedlub.rig.waves import WAVES, wave_rows
+from mixedlub.rig.waves import OUTSIDE, WAVES, wave_rows
 from mixedlub.schema import system_file
 from mixedlub.schema.table import Table
 from profiles.errors import InputError
@@ -35,5 +35,5 @@ def flattened(kind: Kind, system: system_file.System, rig: Rig, table: Table, ch
         rows.row(one)
     first, second = ([surfaces[name] for name in table[side].tolist()] for side in sides)
     inputs = {name: values[:, None] for name, values in rows.inputs(first, second).items()}
-    contained = ("micro_ehl",) if system.flattening == WAVES else ()
+    contained = ("micro_ehl", OUTSIDE) if system.flattening == WAVES else (OUTSIDE,)
     return Base(with_flattening(chain, rows.tables(system.flattening, share)), inputs, contained=contained)

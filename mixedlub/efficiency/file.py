@@ -179,6 +179,8 @@ class EfficiencyFile(Section):
     def _one_temperature(self) -> EfficiencyFile:
         if self.thermal is not None and self.conditions.oil_temperature_C is not None:
             raise ValueError("thermal finds the temperature of the oil: leave out conditions.oil_temperature_C")
+        if self.thermal is not None and self.coasts:
+            raise ValueError("thermal balances the heat of drive alone: leave out torques below 0, or thermal")
         return self
 
     @property

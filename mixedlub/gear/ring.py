@@ -28,6 +28,9 @@ def tip_clearance(pair: Internal) -> float:
     """
     centre = abs(pair.working_centre_distance)
     inner, outer = (abs(tip) for tip in pair.tip_radii)
+    if inner - centre > outer:
+        # The tip circle of the wheel lies around the one of the ring: the teeth foul each other all round.
+        return outer + centre - inner
     first = (outer**2 - inner**2 - centre**2) / (2 * centre * inner)
     second = (outer**2 + centre**2 - inner**2) / (2 * centre * outer)
     if abs(first) >= 1 or abs(second) >= 1:

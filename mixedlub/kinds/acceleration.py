@@ -16,6 +16,8 @@ WINDOWS = (5, 9, 17, 33)
 """Grid. Readings of the local parabola, the fewest that give a clear acceleration."""
 CLEAR = 0.1
 """Judgement. Noise of a clear acceleration over its largest size; a random order of speeds is never clear."""
+MOVES = 0.05
+"""Judgement. Acceleration over the largest from which a machine changes speed; less is noise of a steady one."""
 CORNER = 5.0
 """Judgement. Misfit of a parabola over the typical one from which it lies across a sudden change of acceleration."""
 
@@ -90,13 +92,15 @@ def _local(time: np.ndarray, speed: np.ndarray, count: int) -> tuple[np.ndarray,
     """
     centred = np.arange(time.size) - count // 2
     slope, misfit, noise = _parabolas(time, speed, centred, count)
-    corner = misfit > CORNER * np.median(misfit)
+    # A speed that stands still is logged without any scatter.
+    moves = np.abs(slope) > MOVES * np.max(np.abs(slope))
+    corner = misfit > CORNER * np.median(misfit[moves])
     least = np.where(corner, misfit, 0.0)
     for first in (centred - count // 2, centred + count // 2):
         aside, left, _ = _parabolas(time, speed, first, count)
         better = left < least
         slope, least = np.where(better, aside, slope), np.where(better, left, least)
-    return slope, float(np.median(noise))
+    return slope, float(np.median(noise[moves]))
 
 
 def _parabolas(

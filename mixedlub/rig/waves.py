@@ -16,6 +16,8 @@ from roughness.waves import Waves, lognormal_waves, waves_of
 
 UNDEFORMED, WAVES = "none", "waves"
 """Choices of the option."""
+OUTSIDE = "asperity_law"
+"""Effect that reads the roughness outside the film beside the asperities inside it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +52,9 @@ def wave_rows(option: str, cutoff_share: float | None, effects: Collection[str],
     if option == WAVES and "micro_ehl" in effects:
         rule = f'and {place}flattening = "{WAVES}" flatten the roughness twice; leave one of them out'
         raise InputError(rule, where="effects.micro_ehl")
+    if OUTSIDE in effects:
+        rule = f'reads the roughness outside the film, which {place}flattening = "{WAVES}" and a tied cut-off change'
+        raise InputError(f"{rule}; leave one of them out", where=f"effects.{OUTSIDE}")
     return WaveRows()
 
 

@@ -47,11 +47,14 @@ def efficient(cost: np.ndarray, loss: np.ndarray) -> np.ndarray:
 
     >>> efficient(np.array([1.0, 2.0, 3.0, 3.0]), np.array([9.0, 9.5, 7.0, 8.0])).tolist()
     [True, False, True, False]
+    >>> efficient(np.array([1.0, 1.0, 2.0]), np.array([9.0, 9.0, 9.0])).tolist()
+    [True, True, False]
     """
-    order = np.lexsort((np.broadcast_to(loss, np.shape(loss)), np.broadcast_to(cost, np.shape(loss))), axis=-1)
-    along = np.take_along_axis(loss, order, axis=-1)
-    before = np.minimum.accumulate(along, axis=-1)
-    first = np.concatenate([np.ones_like(along[..., :1], dtype=bool), along[..., 1:] < before[..., :-1]], axis=-1)
-    found = np.empty_like(first)
-    np.put_along_axis(found, order, first, axis=-1)
+    found = np.zeros(np.shape(loss), dtype=bool)
+    cheaper = np.full(np.shape(loss)[:-1], np.inf)
+    for level in np.unique(cost):
+        at = cost == level
+        least = loss[..., at].min(axis=-1)
+        found[..., at] = (loss[..., at] <= least[..., None]) & (loss[..., at] < cheaper[..., None])
+        cheaper = np.minimum(cheaper, least)
     return found

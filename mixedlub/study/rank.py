@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mixedlub.chain.ranges import GRADES
+from mixedlub.schema.findings import collected
 from mixedlub.schema.result import described
 from mixedlub.study.costs import efficient, pairing_costs, reference
 from mixedlub.study.draws import loss_draws
@@ -98,7 +99,10 @@ def ranking(results: Results | pd.DataFrame) -> pd.DataFrame:
     (['b', 'a'], [0.0, 11.1])
     """
     if isinstance(results, Results):
-        return ranking_with_draws(results, loss_draws(results))
+        # The study has said what there is to say about its surfaces.
+        with collected():
+            draws = loss_draws(results)
+        return ranking_with_draws(results, draws)
     lacking = [name for name in (*PAIRING, *CONDITIONS, LOSS) if name not in results]
     if lacking:
         raise InputError("is no table of a study: a column is missing", where="ranking: results", value=lacking[0])
@@ -135,7 +139,7 @@ def ranking_with_draws(results: Results, draws: np.ndarray | None) -> pd.DataFra
         found["mean_loss_W_low90"], found["mean_loss_W_high90"] = np.quantile(draws, ENDS, axis=0)
     found["over_best_percent"] = _over_best(loss)
     if draws is not None:
-        places = draws.argsort(axis=1).argsort(axis=1) + 1
+        places = _places(draws)
         ends = np.quantile(places, ENDS, axis=0, method="inverted_cdf")
         found["place_low90"], found["place_high90"] = ends
         found["best_probability"] = np.mean(places == 1, axis=0)
@@ -168,6 +172,17 @@ def _of_costs(cost: np.ndarray, loss: np.ndarray, draws: np.ndarray | None) -> d
 
 def _words(chosen: np.ndarray) -> np.ndarray:
     return np.where(chosen, "yes", "no")
+
+
+def _places(draws: np.ndarray) -> np.ndarray:
+    """Place of each pairing in each draw: one after the pairings that lose less.
+
+    >>> _places(np.array([[3.0, 1.0, 1.0]])).tolist()
+    [[3, 1, 1]]
+    """
+    from scipy.stats import rankdata
+
+    return np.asarray(rankdata(draws, method="min", axis=1)).astype(int)
 
 
 def _less(draws: np.ndarray, other: np.ndarray) -> np.ndarray:

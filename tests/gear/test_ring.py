@@ -152,6 +152,7 @@ class TestInterference:
         ("change", "rule"),
         [
             ({"teeth": (40, -45)}, "tips of the ring .* overlap by .* mm"),
+            ({"teeth": (40, -41)}, "tips of the ring .* overlap by .* mm"),
             ({"tip_radius": (29e-3, 69.8e-3)}, r"undercut: contact starts .* at least 140\.\d+ mm"),
             ({"tip_radius": (29e-3, 67.0e-3)}, "base circle"),
             ({"profile_shift": (0.0, 1.0)}, "too positive"),

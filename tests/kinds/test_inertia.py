@@ -76,3 +76,13 @@ def test_rows_of_no_time_are_steady_and_rows_between_readings_are_not():
     asked = Table({"time_s": np.array([2.125, 40.0]), "speed_rpm": np.array([40.0, 40.0])})
     assert accelerated(asked, log)[COLUMN].round(6).tolist() == [4.25, 0.0]
     assert accelerated(Table({"speed_rpm": np.array([40.0])}), log)[COLUMN].tolist() == [0.0]
+
+
+def test_a_motor_that_stands_still_most_of_the_time_has_no_corner_at_each_reading_of_its_ramp():
+    """Noise of 0.5 rpm on the ramp alone: a one-sided parabola would have two and a half times the error."""
+    time = np.arange(0.0, 120.0, 0.5)
+    ramp = np.clip(time - 80.0, 0.0, None) * 20.0
+    speed = ramp + np.random.default_rng(3).normal(0.0, 0.5, time.size) * (time > 80.0)
+    found = accelerated(rows := Table({"time_s": time, "speed_rpm": speed}), rows)[COLUMN]
+    steady = (time > 83.0) & (time < 117.0)
+    assert np.std(found[steady] * 30.0 / np.pi) < 0.35

@@ -179,6 +179,7 @@ def test_a_lay_and_heights_go_with_it(write_study):
     ("changes", "named"),
     [
         ({"options": FLAT, "effects": {"micro_ehl": {}}}, r"effects.micro_ehl: and options.flattening = .waves."),
+        ({"options": FLAT, "effects": {"asperity_law": {}}}, "effects.asperity_law: reads the roughness outside"),
         ({"options": {"flattening": "wave"}}, "waves"),
         ({"options": {"short_cutoff_over_half_width": 0.0}}, "short_cutoff_over_half_width"),
         ({"options": {"short_cutoff_over_half_width": 50}}, "must be from 0.001 to 10"),
@@ -200,7 +201,7 @@ def test_a_case_has_the_friction_of_a_study_with_flattened_waves(write_study):
     plain = Forward(reference_rigs.case("gear_pair"), table).predict()
     forward = Forward(case, table)
     assert (forward.predict() < plain).all()
-    assert "micro_ehl" not in {e.id for e in forward.effects()}
+    assert not {"micro_ehl", "asperity_law"} & {e.id for e in forward.effects()}
     assert "micro_ehl" in {e.id for e in Forward(reference_rigs.case("gear_pair"), table).effects()}
     sections = case.system.model_dump(include={"gears", "lubricant", "surfaces"}, exclude_unset=True)
     one = {c: table[c][0] for c in ("torque_Nm", "speed_rpm", "oil_temperature_C")}
