@@ -9,8 +9,9 @@ from sphinx.application import Sphinx
 
 def _as_written(app: Sphinx, function: Any, bound_method: bool) -> None:
     """Leave the keys of a file out of a signature, as the function is written."""
-    if "__signature__" in getattr(function, "__dict__", {}):
-        del function.__signature__
+    while function is not None:
+        getattr(function, "__dict__", {}).pop("__signature__", None)
+        function = getattr(function, "__wrapped__", None)
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
