@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.efficiency.thermal import WHERE, ThermalModel
+from mixedlub.efficiency.thermal import BALANCED, WHERE, ThermalModel
 from mixedlub.efficiency.thermal_root import lowest_root
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.schema.findings import Finding, finding
@@ -17,7 +17,7 @@ NODES = 33
 SAMPLES = 24
 """Grid. Times of an operating point in the table over time."""
 CLOSES = 1e-7
-"""Grid. Heat kept over a closed cycle, over its losses."""
+"""Grid. Heat kept over a closed cycle, over its losses, that ends the search."""
 TOLERANCE, SMALLEST = 1e-10, 1e-13
 """Grid. Tolerances of the integration over time: relative, and of the change (K) since the point began."""
 HOUR = 3600.0
@@ -28,6 +28,9 @@ Losses = Callable[[np.ndarray], np.ndarray]
 @dataclass(frozen=True, eq=False)
 class Cycle:
     """Temperatures (K) and heat (J) of the operating points of a duty cycle, in their order.
+
+    ``closed``: ends as it starts, or has a start of its own; ``inside``: below the highest temperature; ``settled``:
+    the teeth have a temperature at all its sump temperatures.
 
     ``start``, ``end``, ``highest``, ``mean``: sump temperature of each point; ``lost``, ``removed``, ``stored``: heat
     in, heat out and heat kept; ``time`` (s) and ``sump`` (K): over the whole cycle, with the number of the point.
@@ -45,6 +48,7 @@ class Cycle:
     point: np.ndarray
     closed: bool
     inside: bool
+    settled: bool
 
     @property
     def gap(self) -> float:
@@ -61,6 +65,9 @@ class Cycle:
             yield finding("thermal_cycle_open", text, WHERE)
         if not self.inside:
             text = f"the sump passes {model.section.highest_temperature_C:g} °C, above which losses are those there"
+            yield finding("thermal_cycle_open", text, WHERE)
+        if not self.settled:
+            text = "teeth do not pass on the loss of their mesh at temperatures of the sump over the cycle"
             yield finding("thermal_cycle_open", text, WHERE)
 
 
@@ -79,7 +86,8 @@ def cycle(model: ThermalModel, torque: np.ndarray, speed: np.ndarray, seconds: n
     low, high = model.ends
     nodes = np.linspace(low, high, NODES)
     each, at = np.repeat(np.arange(torque.size), NODES), np.tile(nodes, torque.size)
-    found, _ = model.losses(torque[each], speed[each], at)
+    found, rise = model.losses(torque[each], speed[each], at)
+    loose = (model.teeth_gap(found, rise) > BALANCED).reshape(torque.size, NODES)
     losses = [PchipInterpolator(nodes, row) for row in found.total().reshape(torque.size, NODES)]
 
     def excess(_: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -105,8 +113,9 @@ def cycle(model: ThermalModel, torque: np.ndarray, speed: np.ndarray, seconds: n
         time=np.concatenate([t + b for t, b in zip(times, begin, strict=True)]),
         sump=np.concatenate(sump),
         point=np.repeat(np.arange(1, torque.size + 1), [one.size for one in sump]),
-        closed=bool(closed),
+        closed=own is not None or bool(closed and abs(sum(lost) - sum(removed)) <= BALANCED * sum(lost)),
         inside=max(one.max() for one in sump) <= high,
+        settled=not any(row[_touched(nodes, one)].any() for one, row in zip(sump, loose, strict=True)),
     )
 
 
@@ -136,6 +145,12 @@ def _once(
         at = float(sump[-1])
         rows.append((sump, capacity * float(done.y[1, -1]), capacity * float(done.y[2, -1]), times))
     return rows
+
+
+def _touched(nodes: np.ndarray, sump: np.ndarray) -> np.ndarray:
+    """Nodes from which losses at temperatures of the sump are interpolated."""
+    first, last = np.searchsorted(nodes, sump.min(), side="right") - 1, np.searchsorted(nodes, sump.max())
+    return np.unique(np.clip(np.arange(first, last + 1), 0, nodes.size - 1))
 
 
 def _mean(values: np.ndarray, times: np.ndarray) -> float:
