@@ -32,8 +32,8 @@ def gearbox_efficiency(file: str | PathLike[str]) -> xr.Dataset:
     xarray.Dataset
         Variables over (``torque_Nm``, ``speed_rpm``), before them ``oil_temperature_C`` if the file has such levels:
         losses (W) in total and by origin, tooth and gearbox efficiency (percent; NaN at zero torque), and validity;
-        ``part_loss_W`` also over ``part``. With ``[thermal]`` also ``sump_temperature_C`` (NaN without a balance),
-        ``balanced_loss_W`` and ``balanced_efficiency_percent`` at that temperature.
+        ``part_loss_W`` also over ``part``. With ``[thermal]`` also ``sump_temperature_C``, and
+        ``balanced_loss_W`` and ``balanced_efficiency_percent`` at that temperature; NaN without a balance.
 
     Raises
     ------
@@ -75,11 +75,12 @@ def gearbox_efficiency(file: str | PathLike[str]) -> xr.Dataset:
         "validity": over(np.array(losses.validity)),
     }
     if balance is not None:
-        variables |= {
-            "sump_temperature_C": over(np.where(balance.found, balance.sump - ZERO_CELSIUS, np.nan)),
-            "balanced_loss_W": over(balance.losses.total()),
-            "balanced_efficiency_percent": over(100.0 * balance.losses.efficiency()),
+        steady = {
+            "sump_temperature_C": balance.sump - ZERO_CELSIUS,
+            "balanced_loss_W": balance.losses.total(),
+            "balanced_efficiency_percent": 100.0 * balance.losses.efficiency(),
         }
+        variables |= {name: over(np.where(balance.found, values, np.nan)) for name, values in steady.items()}
     names = [" ".join(filter(None, origin)) for origin in losses.by_origin]
     coordinates = {"part": names, **{name: list(getattr(levels, name)) for name in axes}}
     return xr.Dataset(variables, coordinates, {"title": gearbox.file.title})

@@ -68,7 +68,7 @@ def command(
         hours = np.array(duty.duration_h)
         points = gearbox.losses(np.array(duty.torque_Nm), np.array(duty.speed_rpm) * np.pi / 30.0)
         made |= {"duty": tables.duty_table(points, hours), "duty_summary": tables.duty_summary(points, hours)}
-    lines = [*_lines(made, at)]
+    lines, warned = [*_lines(made, at)], [*losses.findings, *findings]
     if gearbox.file.thermal is not None:
         from mixedlub.efficiency.thermal import ThermalModel
         from mixedlub.efficiency.thermal_table import thermal_lines, thermal_tables
@@ -77,6 +77,7 @@ def command(
             model = ThermalModel(gearbox)
             heat, found = thermal_tables(model, model.at_map())
         print_findings(found)
+        warned += found
         made |= heat
         lines += thermal_lines(heat)
     title, notes = gearbox.file.title, tuple(_notes(gearbox))
@@ -86,7 +87,7 @@ def command(
     def page(aside: Path, doing: Callable[[str], None]) -> list[Finding]:
         write_gearbox_page(
             *(gearbox, losses, made, figures, aside),
-            notes=[*losses.findings, *findings],
+            notes=warned,
             lines=[*lines, *notes],
             given=given.decode("utf-8-sig"),
             formats=how.formats,

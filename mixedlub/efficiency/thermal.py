@@ -11,19 +11,21 @@ import numpy as np
 from mixedlub.efficiency.gearbox import MESH, Gearbox, Losses
 from mixedlub.efficiency.heat_paths import HeatPaths
 from mixedlub.efficiency.stage import StageModel
+from mixedlub.efficiency.thermal_root import lowest_root
 from mixedlub.laws.heating import tooth_rise
 from mixedlub.laws.oil import ZERO_CELSIUS
+from mixedlub.rig.lubricant import LINEAR, Lubricant
 from mixedlub.schema.findings import Finding, finding
 from profiles.errors import InputError
 
 CLOSED, BALANCED = 1e-7, 1e-6
 """Grid. Largest difference between heat in and heat out, over the heat, that ends the search, and of a balance."""
-NARROW = 1e-9
-"""Grid. Width (K) of a bracket that is not narrowed any more."""
-STEPS = 60
-"""Cost limit. Most evaluations of the losses for a balance; a dozen are usual."""
-TEETH_STEPS, TEETH_CLOSED = 30, 1e-8
-"""Grid. Most steps for the temperature of the teeth, and the relative change of a rise that counts as none."""
+TEETH_CLOSED = 1e-9
+"""Grid. Largest difference between the loss of a mesh and the heat of its teeth, over the loss, that ends a search."""
+HOTTEST_TEETH_C = 500.0
+"""Judgement. Temperature above which no balance of the teeth is sought; hardened steel is soft there."""
+MARGIN = 1.0
+"""Grid. Distance (K) of the teeth to the temperature at which the oil has no pressure-viscosity coefficient."""
 WHERE = "thermal"
 
 
@@ -32,7 +34,8 @@ class Balance:
     """Steady temperatures of N conditions, in K and W.
 
     ``sump``: temperature of the oil, the highest allowed where no balance exists below it; ``losses``: losses at these
-    temperatures; ``rise``: of the teeth over the sump by stage; ``too_hot``: conditions without a balance.
+    temperatures; ``rise``: of the teeth over the sump by stage; ``too_hot``: conditions without a balance;
+    ``teeth``: difference between the losses of meshes and the heat of their teeth, over the losses.
     """
 
     paths: HeatPaths
@@ -40,11 +43,12 @@ class Balance:
     losses: Losses
     rise: Mapping[str, np.ndarray]
     too_hot: np.ndarray
+    teeth: np.ndarray
 
     @property
     def found(self) -> np.ndarray:
         """Conditions in balance."""
-        return ~self.too_hot & (np.abs(self.gap) <= BALANCED)
+        return ~self.too_hot & (self._apart <= BALANCED)
 
     @cached_property
     def heat(self) -> Mapping[str, np.ndarray]:
@@ -58,6 +62,11 @@ class Balance:
         return np.divide(out - loss, loss, out=np.zeros_like(loss), where=loss > 0.0)
 
     @property
+    def _apart(self) -> np.ndarray:
+        """Largest difference of heat in and heat out, of the sump or the teeth, over heat in."""
+        return np.maximum(np.abs(self.gap), self.teeth)
+
+    @property
     def findings(self) -> tuple[Finding, ...]:
         """Finding on conditions without balance."""
         limit, of = self.paths.section.highest_temperature_C, self.found.size
@@ -67,10 +76,9 @@ class Balance:
             why = "their losses exceed the heat that leaves there"
             texts.append(f"{hot} of {of} conditions have no balance up to {limit:g} °C: {why}")
         if loose:
-            most = float(np.max(np.abs(self.gap[~self.found & ~self.too_hot])))
-            texts.append(
-                f"{loose} of {of} conditions did not converge: heat in and heat out differ by up to {most:.1g}"
-            )
+            most = float(np.max(self._apart[~self.found & ~self.too_hot]))
+            where = "heat in and heat out of sump or teeth differ by up to"
+            texts.append(f"{loose} of {of} conditions did not converge: {where} {most:.1g}")
         return tuple(finding("thermal_no_balance", text, WHERE) for text in texts)
 
 
@@ -100,16 +108,34 @@ class ThermalModel:
         return self.section.coldest_C + ZERO_CELSIUS, self.section.highest_temperature_C + ZERO_CELSIUS
 
     def losses(self, torque: np.ndarray, speed: np.ndarray, sump: np.ndarray) -> tuple[Losses, dict[str, np.ndarray]]:
-        """Losses at sump temperatures (K) by condition, and rise of the teeth by stage where it acts on the film."""
-        rise = {name: np.zeros_like(sump) for name in self.section.teeth_W_K}
-        for _ in range(TEETH_STEPS):
-            found = self._at(sump, rise).losses(torque, speed)
-            new = {name: found.total(stage=name, origins=MESH) / g for name, g in self.section.teeth_W_K.items()}
-            moved = [np.max(np.abs(new[name] - rise[name]) / (1.0 + new[name])) for name in new]
-            rise = new
-            if not moved or max(moved) < TEETH_CLOSED:
-                break
-        return found, rise
+        """Losses at sump temperatures (K) by condition, and rise of the teeth by stage where it acts on the film.
+
+        The loss of a stage depends on the stages before, so the rises are found in the order of the power.
+        """
+        rise: dict[str, np.ndarray] = {}
+        for name in (one.name for one in self.gearbox.stages if one.name in self.section.teeth_W_K):
+            conductance = self.section.teeth_W_K[name]
+
+            def excess(
+                at: np.ndarray, own: np.ndarray, name: str = name, conductance: float = conductance
+            ) -> tuple[np.ndarray, np.ndarray]:
+                rises = {known: values[at] for known, values in rise.items()} | {name: own}
+                found = self._at(sump[at], rises).losses(torque[at], speed[at])
+                mesh = found.total(stage=name, origins=MESH)
+                return conductance * own - mesh, mesh
+
+            room = np.maximum(_hottest_teeth(self.pairs[name].study.oil) - sump, 0.0)
+            rise[name], _ = lowest_root(excess, np.zeros_like(sump), room, TEETH_CLOSED)
+        return self._at(sump, rise).losses(torque, speed), rise
+
+    def teeth_gap(self, losses: Losses, rise: Mapping[str, np.ndarray]) -> np.ndarray:
+        """Difference between the losses of meshes and the heat of their teeth, over the losses: the largest."""
+        gap = np.zeros_like(losses.torque)
+        for name, own in rise.items():
+            mesh = losses.total(stage=name, origins=MESH)
+            left = np.abs(self.section.teeth_W_K[name] * own - mesh)
+            gap = np.maximum(gap, np.divide(left, mesh, out=np.zeros_like(left), where=mesh > 0.0))
+        return gap
 
     def _at(self, sump: np.ndarray, rise: Mapping[str, np.ndarray]) -> Gearbox:
         """Gearbox with its oil at sump temperatures (K) by condition, and teeth that are warmer."""
@@ -120,37 +146,19 @@ class ThermalModel:
     def balance(self, torque: np.ndarray, speed: np.ndarray) -> Balance:
         """Steady balance at torques (N m) and speeds (rad/s) of the input.
 
-        The losses fall or rise with temperature as viscosity and friction make them; a bracket of the temperature is
-        narrowed by false position (the Illinois form) until heat in and heat out agree.
+        The losses fall or rise with temperature as viscosity and friction make them; the lowest balance counts.
         """
 
         def excess(at: np.ndarray, sump: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             loss = self.losses(torque[at], speed[at], sump)[0].total()
             return self.paths.total(sump) - loss, loss
 
-        every = np.arange(torque.size)
         low, high = (np.full(torque.shape, end) for end in self.ends)
-        (below, _), (above, most) = excess(every, low), excess(every, high)
-        found = above >= -CLOSED * most
-        sump = np.where(found, np.where(below >= 0.0, low, high), high)
-        live = every[found & (below < 0.0) & (above > CLOSED * most)]
-        side = np.zeros(torque.shape)
-        for _ in range(STEPS):
-            if not live.size:
-                break
-            a, b, fa, fb = low[live], high[live], below[live], above[live]
-            middle = (a * fb - b * fa) / (fb - fa)
-            own, loss = excess(live, middle)
-            sump[live] = middle
-            left = own < 0.0
-            # Illinois: the end that stays twice counts half, so that both ends move.
-            below[live] = np.where(left, own, np.where(side[live] < 0.0, 0.5 * fa, fa))
-            above[live] = np.where(left, np.where(side[live] > 0.0, 0.5 * fb, fb), own)
-            low[live], high[live] = np.where(left, middle, a), np.where(left, b, middle)
-            side[live] = np.where(left, 1.0, -1.0)
-            live = live[(np.abs(own) > CLOSED * loss) & (high[live] - low[live] > NARROW)]
+        sump, found = lowest_root(excess, low, high, CLOSED)
         losses, rise = self.losses(torque, speed, sump)
-        return Balance(self.paths, sump, losses, self._reported(losses, rise), ~found)
+        return Balance(
+            self.paths, sump, losses, self._reported(losses, rise), ~found, teeth=self.teeth_gap(losses, rise)
+        )
 
     def _reported(self, losses: Losses, rise: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
         """Rise of the teeth of every gear pair: by its conductance, else by ISO/TR 15144-1."""
@@ -167,3 +175,12 @@ class ThermalModel:
         levels = self.gearbox.file.conditions
         torque, speed = np.meshgrid(levels.torque_Nm, np.array(levels.speed_rpm) * np.pi / 30.0, indexing="ij")
         return self.balance(torque.ravel(), speed.ravel())
+
+
+def _hottest_teeth(oil: Lubricant) -> float:
+    """Highest temperature (K) of the teeth at which the oil has a pressure-viscosity coefficient."""
+    (t1, t2), (a1, a2) = oil.temperature, oil.pressure_viscosity
+    highest = HOTTEST_TEETH_C + ZERO_CELSIUS
+    if oil.carried != LINEAR or a2 >= a1:
+        return highest
+    return min(highest, t1 + a1 * (t2 - t1) / (a1 - a2) - MARGIN)

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.efficiency.thermal import WHERE, ThermalModel
+from mixedlub.efficiency.thermal import BALANCED, WHERE, ThermalModel
+from mixedlub.efficiency.thermal_root import lowest_root
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.schema.findings import Finding, finding
 
@@ -15,12 +16,10 @@ NODES = 33
 """Grid. Temperatures at which the losses of an operating point are computed; they are interpolated between."""
 SAMPLES = 24
 """Grid. Times of an operating point in the table over time."""
-MOST_CYCLES = 200
-"""Cost limit. Repetitions until a cycle closes."""
-SAME = 1e-3
-"""Grid. Difference (K) between start and end of a cycle that closes."""
-TOLERANCE = 1e-10
-"""Grid. Relative tolerance of the integration over time."""
+CLOSES = 1e-7
+"""Grid. Heat kept over a closed cycle, over its losses, that ends the search."""
+TOLERANCE, SMALLEST = 1e-10, 1e-13
+"""Grid. Tolerances of the integration over time: relative, and of the change (K) since the point began."""
 HOUR = 3600.0
 Losses = Callable[[np.ndarray], np.ndarray]
 """Losses (W) of an operating point over the sump temperature (K)."""
@@ -29,6 +28,9 @@ Losses = Callable[[np.ndarray], np.ndarray]
 @dataclass(frozen=True, eq=False)
 class Cycle:
     """Temperatures (K) and heat (J) of the operating points of a duty cycle, in their order.
+
+    ``closed``: ends as it starts, or has a start of its own; ``inside``: below the highest temperature; ``settled``:
+    the teeth have a temperature at all its sump temperatures.
 
     ``start``, ``end``, ``highest``, ``mean``: sump temperature of each point; ``lost``, ``removed``, ``stored``: heat
     in, heat out and heat kept; ``time`` (s) and ``sump`` (K): over the whole cycle, with the number of the point.
@@ -45,8 +47,8 @@ class Cycle:
     sump: np.ndarray
     point: np.ndarray
     closed: bool
-    repeated: int
     inside: bool
+    settled: bool
 
     @property
     def gap(self) -> float:
@@ -58,10 +60,14 @@ class Cycle:
     def findings(self, model: ThermalModel) -> Iterator[Finding]:
         """Findings on a cycle that does not close or leaves the temperatures of the balance."""
         if not self.closed:
-            text = f"temperatures do not close after {self.repeated} repetitions of the cycle: they are of the last one"
+            limit = f"{model.section.highest_temperature_C:g} °C"
+            text = f"the cycle closes at no start temperature up to {limit}: temperatures are of a start there"
             yield finding("thermal_cycle_open", text, WHERE)
         if not self.inside:
             text = f"the sump passes {model.section.highest_temperature_C:g} °C, above which losses are those there"
+            yield finding("thermal_cycle_open", text, WHERE)
+        if not self.settled:
+            text = "teeth do not pass on the loss of their mesh at temperatures of the sump over the cycle"
             yield finding("thermal_cycle_open", text, WHERE)
 
 
@@ -80,16 +86,20 @@ def cycle(model: ThermalModel, torque: np.ndarray, speed: np.ndarray, seconds: n
     low, high = model.ends
     nodes = np.linspace(low, high, NODES)
     each, at = np.repeat(np.arange(torque.size), NODES), np.tile(nodes, torque.size)
-    found, _ = model.losses(torque[each], speed[each], at)
+    found, rise = model.losses(torque[each], speed[each], at)
+    loose = (model.teeth_gap(found, rise) > BALANCED).reshape(torque.size, NODES)
     losses = [PchipInterpolator(nodes, row) for row in found.total().reshape(torque.size, NODES)]
-    own = section.start_temperature_C
+
+    def excess(_: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        rows = _once(model, losses, seconds, float(start[0]), capacity)
+        lost, removed = (np.array([sum(row[which] for row in rows)]) for which in (1, 2))
+        return removed - lost, lost
+
+    own, closed = section.start_temperature_C, True
     start = low if own is None else own + ZERO_CELSIUS
-    count, closed = 0, False
-    while not closed and count < MOST_CYCLES:
-        rows = _once(model, losses, seconds, start, capacity)
-        last = float(rows[-1][0][-1])
-        closed = own is not None or abs(last - start) < SAME
-        count, start = count + 1, last
+    if own is None:
+        (start,), (closed,) = lowest_root(excess, np.array([low]), np.array([high]), CLOSES)
+    rows = _once(model, losses, seconds, start, capacity)
     sump, lost, removed, times = (list(one) for one in zip(*rows, strict=True))
     begin = np.concatenate([[0.0], np.cumsum(seconds)[:-1]])
     return Cycle(
@@ -103,9 +113,9 @@ def cycle(model: ThermalModel, torque: np.ndarray, speed: np.ndarray, seconds: n
         time=np.concatenate([t + b for t, b in zip(times, begin, strict=True)]),
         sump=np.concatenate(sump),
         point=np.repeat(np.arange(1, torque.size + 1), [one.size for one in sump]),
-        closed=closed,
-        repeated=count,
+        closed=own is not None or bool(closed and abs(sum(lost) - sum(removed)) <= BALANCED * sum(lost)),
         inside=max(one.max() for one in sump) <= high,
+        settled=not any(row[_touched(nodes, one)].any() for one, row in zip(sump, loose, strict=True)),
     )
 
 
@@ -119,9 +129,10 @@ def _once(
     rows, at = [], start
     for loss, duration in zip(losses, seconds, strict=True):
 
-        def slopes(_: float, state: np.ndarray, loss: Losses = loss) -> list[float]:
-            given = float(loss(np.clip(state[0], low, high)))
-            taken = float(model.paths.total(np.array(state[0])))
+        def slopes(_: float, state: np.ndarray, loss: Losses = loss, at: float = at) -> list[float]:
+            sump = at + state[0]
+            given = float(loss(np.clip(sump, low, high)))
+            taken = float(model.paths.total(np.array(sump)))
             return [(given - taken) / capacity, given / capacity, taken / capacity]
 
         if duration == 0.0:
@@ -129,10 +140,17 @@ def _once(
             continue
         # Dense where the temperature moves, at the start of a point.
         times = duration * np.concatenate([[0.0], np.geomspace(1e-4, 1.0, SAMPLES)])
-        done = solve_ivp(slopes, (0.0, duration), [at, 0.0, 0.0], "LSODA", times, rtol=TOLERANCE, atol=1e-9)
-        at = float(done.y[0, -1])
-        rows.append((done.y[0], capacity * float(done.y[1, -1]), capacity * float(done.y[2, -1]), times))
+        done = solve_ivp(slopes, (0.0, duration), [0.0, 0.0, 0.0], "LSODA", times, rtol=TOLERANCE, atol=SMALLEST)
+        sump = at + done.y[0]
+        at = float(sump[-1])
+        rows.append((sump, capacity * float(done.y[1, -1]), capacity * float(done.y[2, -1]), times))
     return rows
+
+
+def _touched(nodes: np.ndarray, sump: np.ndarray) -> np.ndarray:
+    """Nodes from which losses at temperatures of the sump are interpolated."""
+    first, last = np.searchsorted(nodes, sump.min(), side="right") - 1, np.searchsorted(nodes, sump.max())
+    return np.unique(np.clip(np.arange(first, last + 1), 0, nodes.size - 1))
 
 
 def _mean(values: np.ndarray, times: np.ndarray) -> float:

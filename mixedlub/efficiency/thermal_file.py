@@ -62,7 +62,7 @@ class Thermal(Section):
         example=25.0,
     )
     start_temperature_C: Number | None = key(
-        "sump at the start of the duty cycle; left out: the cycle repeats until it closes", None, example=20.0
+        "sump at the start of the duty cycle; left out: the temperature at which the cycle closes", None, example=20.0
     )
 
     @property

@@ -102,13 +102,16 @@ def duty_table(over: Cycle, torque: np.ndarray, speed: np.ndarray, hours: np.nda
 def thermal_lines(made: dict[str, pd.DataFrame]) -> Iterator[str]:
     """Lines of the report."""
     table = made["thermal"]
-    low, high = table["sump_temperature_C"].min(), table["sump_temperature_C"].max()
-    share = 100.0 * float(np.mean(table["balance"] == BALANCED))
-    most = float(table.loc[table["balance"] == BALANCED, "heat_difference"].abs().max()) if share else np.nan
-    yield (
-        f"  thermal balance: sump {low:.4g} to {high:.4g} °C over the map, {share:.4g} % of the conditions in balance "
-        f"(heat in and out within {most:.1g})"
-    )
+    held = table[table["balance"] == BALANCED]
+    if held.empty:
+        yield "  thermal balance: no condition of the map is in balance"
+    else:
+        low, high = held["sump_temperature_C"].min(), held["sump_temperature_C"].max()
+        share, most = 100.0 * len(held) / len(table), held["heat_difference"].abs().max()
+        yield (
+            f"  thermal balance: sump {low:.4g} to {high:.4g} °C over {share:.4g} % of the map, in balance "
+            f"(heat in and out within {most:.1g})"
+        )
     if "thermal_duty" in made:
         duty = made["thermal_duty"]
         yield (

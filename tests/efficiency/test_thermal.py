@@ -18,7 +18,7 @@ from mixedlub.efficiency.heat_paths import HeatPaths
 from mixedlub.efficiency.thermal import ThermalModel
 from mixedlub.efficiency.thermal_cycle import HOUR, cycle
 from mixedlub.efficiency.thermal_file import Thermal
-from mixedlub.efficiency.thermal_table import TABLES, thermal_tables
+from mixedlub.efficiency.thermal_table import TABLES, thermal_lines, thermal_tables
 from mixedlub.schema.toml_file import parse
 from profiles.errors import InputError
 from tests.efficiency.gearboxes import PARTS, STAGE, gearbox, written
@@ -145,6 +145,77 @@ def test_repeated_cycle_closes_and_keeps_no_heat(tmp_path: Path) -> None:
     assert duty["removed_energy_kWh"].sum() == pytest.approx(duty["loss_energy_kWh"].sum(), rel=1e-4)
     balance = duty["loss_energy_kWh"] - duty["removed_energy_kWh"] - duty["stored_energy_kWh"]
     assert np.abs(balance).max() < 1e-6 * duty["loss_energy_kWh"].sum()
+
+
+@pytest.mark.parametrize("seconds", [0.1, 1.0, 3600.0])
+def test_a_cycle_of_any_length_closes_at_the_steady_temperature(tmp_path: Path, seconds: float) -> None:
+    """Half the time at the constant loss P, half without: the closed form of one capacity over two exponentials."""
+    thermal = {"foundation_W_K": 8.0, "heat_capacity_kJ_K": 200.0}
+    found = model(tmp_path, FIXED, thermal=thermal)
+    torque, speed = np.array([100.0, 0.0]), np.full(2, 50.0 * np.pi)
+    over = cycle(found, torque, speed, np.full(2, 0.5 * seconds))
+    loss = found.gearbox.losses(torque, speed).total()[0]
+    kept = np.exp(-0.5 * seconds * 8.0 / 200e3)
+    assert over.closed
+    assert loss / 8.0 * kept / (1.0 + kept) > 5.0
+    assert over.start[0] - 293.15 == pytest.approx(loss / 8.0 * kept / (1.0 + kept), rel=1e-5)
+
+
+def test_a_cycle_that_closes_nowhere_is_flagged(tmp_path: Path) -> None:
+    thermal = {"foundation_W_K": 0.5, "heat_capacity_kJ_K": 200.0}
+    found = model(tmp_path, FIXED, thermal=thermal)
+    over = cycle(found, np.array([200.0]), np.array([150.0]), np.array([1.0]))
+    assert not over.closed
+    assert "closes at no start temperature up to 150 °C" in next(over.findings(found)).text
+
+
+def test_hot_teeth_have_the_balance_of_a_search_by_hand(tmp_path: Path) -> None:
+    """The teeth of a cold sump would pass the temperature at which the oil has laws; the balance does not."""
+    box = model(tmp_path, STAGE, thermal={**THERMAL, "teeth_W_K": {"a": 1.0}})
+    at = np.array([200.0]), np.array([50.0 * np.pi])
+    balance = box.balance(*at)
+    assert balance.found.all()
+
+    def mesh(sump: float, rise: float) -> float:
+        warm = {"a": np.array([rise])}
+        return float(box._at(np.array([sump]), warm).losses(*at).total()[0])
+
+    def excess(sump: float) -> float:
+        rise = brentq(lambda own: own - mesh(sump, own), 0.0, 200.0, xtol=1e-10)
+        return float(box.paths.total(np.array([sump]))[0]) - rise
+
+    assert balance.sump[0] == pytest.approx(brentq(excess, 300.0, 350.0, xtol=1e-8), abs=1e-4)
+    assert balance.rise["a"][0] == pytest.approx(mesh(float(balance.sump[0]), float(balance.rise["a"][0])), rel=1e-6)
+
+
+def test_teeth_without_a_temperature_are_not_in_balance(tmp_path: Path) -> None:
+    thermal = {**THERMAL, "teeth_W_K": {"a": 0.05}, "heat_capacity_kJ_K": 20.0}
+    box = model(tmp_path, FIXED, thermal=thermal, duty=DUTY)
+    balance = box.balance(np.array([0.0, 200.0]), np.array([150.0, 150.0]))
+    assert list(balance.found) == [True, False]
+    assert balance.teeth[1] > 0.1
+    _, notes = thermal_tables(box, balance)
+    assert ["1 of 2 conditions did not converge" in notes[0].text, "teeth do not pass" in notes[1].text] == [True, True]
+
+
+def test_conditions_without_balance_have_no_numbers_and_reach_the_page(tmp_path: Path) -> None:
+    weak = {"housing": {"area_m2": 0.1, "coefficient_W_m2K": 10.0}}
+    gearbox(tmp_path, FIXED, conditions=LEVELS, thermal=weak)
+    path = str(tmp_path / "efficiency.toml")
+    with pytest.warns(UserWarning, match="no balance up to 150 °C"):
+        found = ml.gearbox_efficiency(path)
+    sump, loss = found["sump_temperature_C"], found["balanced_loss_W"]
+    none = np.isnan(sump.to_numpy())
+    assert 0 < none.sum() < none.size
+    assert np.array_equal(np.isnan(loss.to_numpy()), none)
+    assert np.isnan(found["balanced_efficiency_percent"].to_numpy()[none]).all()
+    assert main(["efficiency", path, "--out", str(tmp_path / "out")]) == 0
+    page = (tmp_path / "out" / "index.html").read_text(encoding="utf-8")
+    assert "have no balance up to 150 °C" in page
+    table = pd.read_csv(tmp_path / "out" / "thermal.csv")
+    line = next(thermal_lines({"thermal": table}))
+    assert f"sump {float(sump.min()):.4g} to {float(sump.max()):.4g} °C" in line
+    assert float(sump.max()) < 149.0
 
 
 def test_python_and_command_give_the_same_temperatures(tmp_path: Path) -> None:
