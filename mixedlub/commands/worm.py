@@ -34,7 +34,7 @@ def command(
     import json
 
     from mixedlub.report.worm import worm_figures
-    from mixedlub.worm_gears.drive import locking, read_drive
+    from mixedlub.worm_gears.drive import extrapolated_oil, locking, read_drive
     from mixedlub.worm_gears.mesh_law import FILE, mesh_law
     from mixedlub.worm_gears.table import TABLES, geometry_table, map_table
 
@@ -43,7 +43,7 @@ def command(
         to = how.open(file.stem, origin_of_file(file), TABLES, "file", JSON, FILE)
         losses = drive.map()
         made = {"map": map_table(losses), "geometry": geometry_table(drive)}
-    print_findings([*locking(drive, losses), *notes])
+    print_findings([*locking(drive, losses), *extrapolated_oil(drive, losses), *notes])
     summary = {name: json.loads(table.to_json(orient="records")) for name, table in made.items()}
     text = json.dumps({"schema": "mixedlub-worm-result/1", "title": drive.file.title, **summary}, indent=1) + "\n"
     lines = tuple(map(_line, made["map"].head(MOST_PRINTED).to_dict("records")))

@@ -17,7 +17,7 @@ from mixedlub.effects import find
 from mixedlub.evaluate.uncertainty import NORMAL_90
 from mixedlub.kinds.oil_priors import missing
 from mixedlub.schema.findings import Finding, collected, finding
-from mixedlub.schema.oil_file import SCHEMA, oil_of
+from mixedlub.schema.oil_file import MODULUS, SCHEMA, oil_of
 from mixedlub.schema.toml_file import to_toml
 from mixedlub.schema.traction_part import EYRING, LIMIT, WITHOUT_RATE, Traction, TractionNumber
 from profiles.errors import InputError
@@ -25,7 +25,7 @@ from profiles.errors import InputError
 STRESS_SPREAD = 0.5
 """Judgement. Prior sd of the logarithm of the Eyring stress about the oil's: fitted stresses are 2 to 15 MPa."""
 LEAST_GAIN = 9.0
-"""Judgement. Fall of chi-square for which a limiting stress is told: three standard deviations."""
+"""Judgement. Fall of chi-square over its widening for which a limiting stress is told: three standard deviations."""
 LEAST_READINGS = 8
 """Judgement. Fewest readings: the parameters of the part and one."""
 TOLD = 0.7
@@ -104,6 +104,11 @@ class _Problem:
         found = [least_squares(self.residuals, row) for row in starts[: 3 if len(self.free) > len(EYRING) else 1]]
         return min(found, key=lambda one: one.cost)
 
+    def reduced_chi2(self, found: Any) -> float:
+        """Chi-square of the readings per degree of freedom, of a result of `solved`."""
+        count = len(self.values)
+        return float(np.sum(found.fun[:count] ** 2)) / max(count - len(self.free), 1)
+
 
 def _covariance(case: Case, values: np.ndarray) -> np.ndarray:
     """Covariance of the readings: their noise, and errors that readings of a set-up share."""
@@ -131,11 +136,10 @@ def fitted_traction(case: Case, source: str) -> TractionFit:
     forward = _forward(case)
     plain, limited = (_Problem(case, forward, limited=one) for one in (False, True))
     without, within = plain.solved(), limited.solved()
-    told_limit = 2.0 * (without.cost - within.cost) > LEAST_GAIN
+    told_limit = 2.0 * (without.cost - within.cost) > LEAST_GAIN * max(limited.reduced_chi2(within), 1.0)
     problem, found = (limited, within) if told_limit else (plain, without)
     count = len(problem.values)
-    own = found.jac[:count]
-    chi2 = float(np.sum(found.fun[:count] ** 2)) / max(count - len(KEYS), 1)
+    own, chi2 = found.jac[:count], problem.reduced_chi2(found)
     spread = np.linalg.inv(own.T @ own / max(chi2, 1.0) + np.eye(len(problem.free)))
     sds = np.sqrt(np.diag(spread))
     nominal = float(np.ravel(forward.inputs[STRESS])[0])
@@ -224,11 +228,13 @@ def _findings(table: pd.DataFrame, case: Case, chi2: float, *, told_limit: bool)
 
 
 def oil_file(case: Case, part: Traction) -> str:
-    """Oil file with the properties of the case's oil and a traction part."""
+    """Oil file with the properties of the case's oil and a traction part, without the modulus equation: the stresses
+    are fitted with viscosities by Roelands."""
     section = case.system.lubricant
     assert section is not None
     known = None if section.oil is None else oil_of(section.oil, case.folder)
-    stated = section.model_dump(exclude_none=True, exclude={"name", "base", "oil", "traction", "eyring_stress_MPa"})
+    apart = {"name", "base", "oil", "traction", KEYS[STRESS], *MODULUS}
+    stated = section.model_dump(exclude_none=True, exclude=apart)
     properties: dict[str, Any] = {}
     for name, value in stated.items():
         own = {"value": value, "status": "stated", "source": f"[lubricant] of {case.name}"}

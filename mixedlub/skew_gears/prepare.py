@@ -13,7 +13,7 @@ from mixedlub import friction
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.build import check_bandwidth
 from mixedlub.rig.rig import Rig
-from mixedlub.schema.findings import Finding, collected
+from mixedlub.schema.findings import Finding, collected, finding, report
 from mixedlub.schema.system_file import RigFile
 from mixedlub.schema.toml_file import parse, read_toml
 from mixedlub.skew_gears.blank import Blank, blank
@@ -89,9 +89,10 @@ def read_pair(path: Path) -> tuple[Pair, tuple[Finding, ...]]:
     file = parse(BevelFile, read_toml(path), str(path))
     try:
         with collected() as findings:
-            return _pair(path, file), tuple(dict.fromkeys(findings))
+            pair = _pair(path, file)
     except InputError as error:
         raise InputError(error.rule, where=f"{path}: {error.where}".rstrip(": "), value=error.value) from None
+    return pair, tuple(findings)
 
 
 def _pair(path: Path, file: BevelFile) -> Pair:
@@ -104,6 +105,9 @@ def _pair(path: Path, file: BevelFile) -> Pair:
     given = {"lubricant": file.lubricant, "surfaces": sides, "boundary_friction": file.boundary_friction}
     rig = Rig(parse(RigFile, given, str(path)), path.parent.resolve())
     oil = rig.oil()
+    if oil.traction is not None:
+        text = f"bevel gears do not read the traction part of the oil; Eyring stress {oil.eyring_stress * 1e-6:g} MPa"
+        report(finding("traction_unread", text, "lubricant"))
     check_oil(friction.find(file.options.friction), file.options.friction_coefficients, oil)
     check_viscosity(file.options, oil)
     surfaces = [rig.surface(name) for name in sides]

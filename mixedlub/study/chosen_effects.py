@@ -14,7 +14,7 @@ from mixedlub.chain.slots import SLIDING_POWER, STEPS
 from mixedlub.effects import LAW, find, known_effects, known_in
 from mixedlub.own_laws import check_usable
 from mixedlub.schema.findings import finding, report
-from mixedlub.schema.system_file import Gears, LoadSharing
+from mixedlub.schema.system_file import Gears, LoadSharing, Uncertainty
 from mixedlub.study.heat import BULK, check_exponent
 from mixedlub.study.options import study_chain
 from mixedlub.study.schema import Options, StudyFile
@@ -42,7 +42,8 @@ def chosen_effects(
         check_usable(law, chain, _corners(inputs), "power_loss", "study")
     known = known_effects(file.effects, "gear_pair", chain, tuple(inputs), "power_loss", laws)
     for effect, name in known.sds:
-        raise InputError("a study has no uncertainty; leave it out", where=f"effects.{effect}.{name}_sd")
+        rule = f"a study takes no uncertainty of effects, only [uncertainty] of {', '.join(Uncertainty.model_fields)}"
+        raise InputError(f"{rule}; leave it out", where=f"effects.{effect}.{name}_sd")
     check_exponent(known.values)
     for e in known.effects:
         _tell_defaults(e, file.effects[e.id], known.values[e.id])

@@ -9,11 +9,14 @@ from pathlib import Path
 
 import numpy as np
 
+from mixedlub.base_model.limits import contact_limits
+from mixedlub.chain.ranges import findings
 from mixedlub.laws.contact import reduced_modulus
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.rig import Rig
-from mixedlub.schema.findings import Finding, collected, finding
+from mixedlub.schema.findings import Finding, collected, finding, report
+from mixedlub.schema.ranges import unusual
 from mixedlub.schema.system_file import RigFile
 from mixedlub.schema.toml_file import parse, read_toml
 from mixedlub.worm_gears import laws
@@ -79,7 +82,7 @@ class Drive:
     @property
     def pressure_angle(self) -> float:
         """Normal pressure angle (rad)."""
-        return math.radians(self.file.gears.pressure_angle_deg)
+        return math.radians(self.file.pressure_angle_deg)
 
     @property
     def locking_friction(self) -> float:
@@ -156,13 +159,15 @@ def read_drive(path: Path) -> tuple[Drive, tuple[Finding, ...]]:
     """Drive of a file, checked, and findings for its user."""
     file = parse(WormFile, read_toml(path), str(path))
     try:
-        with collected() as findings:
+        with collected() as found:
+            for one in unusual(file):
+                report(one)
             oil = None
             if file.lubricant is not None:
                 oil = Rig(parse(RigFile, {"lubricant": file.lubricant}, str(path)), path.parent.resolve()).oil()
-            return Drive(file, oil), tuple(dict.fromkeys(findings))
     except InputError as error:
         raise InputError(error.rule, where=f"{path}: {error.where}".rstrip(": "), value=error.value) from None
+    return Drive(file, oil), tuple(found)
 
 
 def locking(drive: Drive, losses: Losses) -> tuple[Finding, ...]:
@@ -178,3 +183,15 @@ def locking(drive: Drive, losses: Losses) -> tuple[Finding, ...]:
         "that locks may still creep under vibration"
     )
     return (finding("worm_locks", text, "conditions"),)
+
+
+def extrapolated_oil(drive: Drive, losses: Losses) -> tuple[Finding, ...]:
+    """Findings of conditions whose film has a viscosity outside the range of the oil."""
+    if drive.file.film is None or drive.oil is None:
+        return ()
+    state = {**drive.oil.inputs(losses.temperature), "oil_temperature": losses.temperature}
+    state["kinematic_viscosity"] = np.asarray(state["viscosity"]) / np.asarray(state["oil_density"])
+    limits = [one for one in contact_limits(state) if one.code.startswith("viscosity_") and one.quantity in state]
+    return findings(
+        [(one, np.asarray(state[one.quantity])) for one in limits], losses.temperature.shape, "conditions", "lubricant"
+    )

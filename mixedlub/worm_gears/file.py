@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from mixedlub.schema.ranges import ranges
 from mixedlub.schema.section import Number, Section, Whole, key
 from mixedlub.schema.system_file import Lubricant, Pair
 from mixedlub.study.schema import Numbers, each_once
@@ -14,6 +15,8 @@ Positive = Annotated[Number, Field(gt=0.0)]
 NotNegative = Annotated[Number, Field(ge=0.0)]
 MOST_CONDITIONS = 100_000
 """Cost limit. Largest number of conditions of a map."""
+PRESSURE_ANGLE = 20.0
+"""Judgement. Normal pressure angle (deg) of a file without one: the usual angle of worms."""
 ISO, AGMA, CONSTANT = "iso_tr_14521", "agma_6034", "constant"
 COEFFICIENTS = ("constant", "gain", "shift_m_s", "exponent", "largest")
 """Numbers of the base friction in the form of ISO/TR 14521."""
@@ -28,13 +31,19 @@ class Worm(Section):
     axial_module_mm: Positive = key("module in the axial section of the worm", example=4.0)
     worm_diameter_mm: Positive = key("reference diameter of the worm", example=36.0)
     centre_distance_mm: Positive | None = key("distance of the axes; without it that of no profile shift", None)
-    pressure_angle_deg: Annotated[Number, Field(ge=0.0, le=35.0)] = key(
-        "normal pressure angle, which raises the friction angle; 0 with friction of ISO/TR 14521, which contains it",
-        20.0,
+    pressure_angle_deg: Annotated[Number, Field(ge=0.0, le=35.0)] | None = key(
+        "normal pressure angle, which raises the friction angle; without it 20, but 0 with the law iso_tr_14521, "
+        "whose mean friction contains the inclination",
+        None,
+        example=20.0,
     )
     worm_roughness_Ra_um: Positive | None = key("Ra of the worm, for a roughness factor", None, example=0.5)
-    youngs_modulus_GPa: Pair = key("moduli of worm and wheel, for the film", (206.0, 88.3))
-    poisson_ratio: Pair = key("Poisson's ratios of worm and wheel, for the film", (0.3, 0.35))
+    youngs_modulus_GPa: Annotated[Pair, ranges()["gears.youngs_modulus_GPa"]] = key(
+        "moduli of worm and wheel, for the film", (206.0, 88.3)
+    )
+    poisson_ratio: Annotated[Pair, ranges()["gears.poisson_ratio"]] = key(
+        "Poisson's ratios of worm and wheel, for the film", (0.3, 0.35)
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Worm:
@@ -135,7 +144,9 @@ class WormConditions(Section):
 
     wheel_torque_Nm: Numbers = key("torques on the wheel, driven or driving", example=[100, 200, 400])
     worm_speed_rpm: Numbers = key("speeds of the worm", example={"from": 100, "to": 3000, "count": 7})
-    oil_temperature_C: Numbers = key("temperatures of the oil, for the film", (60.0,))
+    oil_temperature_C: Annotated[Numbers, ranges()["conditions.oil_temperature_C"]] = key(
+        "temperatures of the oil, for the film", (60.0,)
+    )
 
     @model_validator(mode="after")
     def _positive(self) -> WormConditions:
@@ -173,3 +184,10 @@ class WormFile(Section):
         if self.film is not None and self.lubricant is None:
             raise ValueError("film: needs the oil; add [lubricant]")
         return self
+
+    @property
+    def pressure_angle_deg(self) -> float:
+        """Normal pressure angle that raises the friction angle."""
+        given = self.gears.pressure_angle_deg
+        usual = 0.0 if self.friction.law == ISO else PRESSURE_ANGLE
+        return usual if given is None else given

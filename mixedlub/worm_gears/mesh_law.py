@@ -48,7 +48,7 @@ def _friction(drive: Drive) -> str:
         feet = f"({_number(per_rpm / FOOT_PER_MINUTE)}*abs(speed_rpm))"
         slow = f"0.124*exp(-0.074*{feet}^0.645)"
         fast = f"(0.103*exp(-0.110*{feet}^0.450) + 0.012)"
-        return f"({slow}*(1 - sign({feet} - 10)) + {fast}*(1 + sign({feet} - 10)))/2"
+        return f"{factor}*({slow}*(1 - sign({feet} - 10)) + {fast}*(1 + sign({feet} - 10)))/2"
     fall = f"{base['gain']}/({speed} + {base['shift']})^{base['exponent']}"
     return f"{factor}*min({base['constant']} + {fall}, {base['largest']})"
 

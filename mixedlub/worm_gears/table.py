@@ -39,6 +39,7 @@ TABLES = {
 OF_DRIVE: dict[str, Callable[[Drive], float]] = {
     "ratio": lambda d: d.ratio,
     "lead_angle_deg": lambda d: math.degrees(d.lead),
+    "normal_pressure_angle_deg": lambda d: d.file.pressure_angle_deg,
     "centre_distance_mm": lambda d: d.file.gears.distance_mm,
     "wheel_diameter_mm": lambda d: d.file.gears.axial_module_mm * d.file.gears.wheel_teeth,
     "wheel_profile_shift": lambda d: d.file.gears.profile_shift,

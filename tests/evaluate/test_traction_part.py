@@ -49,7 +49,7 @@ DISCS = {
 }
 
 
-def friction(load, speed, ratio, celsius):
+def friction(load, speed, ratio, celsius, limited=True):
     """Friction of a smooth line contact with the stresses of TRUTH, by formulas of its own."""
     kelvin, steel, radius = celsius + 273.15, 206e9 / (1 - 0.3**2), 0.02
     line = load / 0.006
@@ -65,6 +65,8 @@ def friction(load, speed, ratio, celsius):
     thick = math.exp((math.log(eta) + 9.67) * (1 + pressure / 1.96e8) ** power - 9.67)
     stress = 7e6 * (pressure / 1e9) ** 0.7 * math.exp(-0.005 * (celsius - 80.0))
     eyring = stress * math.asinh(thick * ratio * speed / (film * stress))
+    if not limited:
+        return eyring / pressure
     limit = 0.05 * (0.9 * pressure + 0.1e9) * math.exp(-0.002 * (celsius - 40.0))
     return eyring * (1 + (eyring / limit) ** 3) ** (-1 / 3) / pressure
 
@@ -94,6 +96,35 @@ def test_planted_stresses_lie_within_their_intervals():
         held += ((found["low90"] < truth) & (truth < found["high90"])).tolist()
         assert found["value"].to_numpy()[:4] == pytest.approx(truth[:4], rel=0.12)
     assert np.mean(held) >= 0.8  # 35 intervals of 90 %
+
+
+def test_scatter_beyond_the_stated_noise_tells_no_limit():
+    """Readings without a limit, with 8 times their noise: a limit lowers chi-square by 22.7, which 62 divides."""
+    table = rows(2)
+    names = ("load_N", "entrainment_speed_m_s", "slide_roll_ratio", "oil_temperature_C")
+    true = np.array([friction(*one, limited=False) for one in zip(*(table[name] for name in names), strict=True)])
+    table["friction_coefficient"] = true + 8.0 * table["friction_coefficient_sd"] * np.random.default_rng(2).normal(
+        size=true.size
+    )
+    found = fitted_traction(case_of(DISCS, table), "discs")
+    assert found.part.limit_over_pressure is None
+    assert any("no limiting stress is told" in one.text for one in found.findings)
+
+
+def test_the_written_oil_has_the_viscosity_of_the_fit():
+    """Without the modulus equation the solver takes Roelands' law as the fit does: 18/GPa at 40 degC, 1 GPa."""
+    from mixedlub.ehl.oil.lubricant import from_lubricant
+    from mixedlub.rig.build import lubricant
+
+    modulus = {"pressure_modulus_MPa": [55.6, 71.4], "pressure_modulus_slope": [0.03, 0.04]}
+    case = case_of({**DISCS, "lubricant": {**OIL, **modulus}}, rows(1))
+    written = tomllib.loads(fitted_traction(case, "discs").file)
+    kept = {name: one["value"] for name, one in written["properties"].items()}
+    assert kept == {name: OIL[name] for name in OIL if name != "name"}
+    oil = from_lubricant(lubricant(parse(Lubricant, {**kept, "eyring_stress_MPa": 7.0}, "x")))
+    eta = float(oil.log_viscosity(np.array(0.0), np.array(313.15))[0])
+    thick = (eta + 9.67) * (1 + 1e9 / 1.96e8) ** (18e-9 * 1.96e8 / (eta + 9.67)) - 9.67
+    assert float(oil.log_viscosity(np.array(1e9), np.array(313.15))[0]) == pytest.approx(thick, rel=1e-3)
 
 
 def test_one_temperature_tells_no_fall():

@@ -99,6 +99,19 @@ def test_friction_laws_by_name(tmp_path, law):
     assert np.all((found["loss_factor"] > 0.37) & (found["loss_factor"] < 0.47))
 
 
+def test_a_traction_part_is_said_to_be_unread(tmp_path):
+    """Friction is that of the constant Eyring stress of the part."""
+    part = {"eyring_stress_MPa": {"value": 7.0}, "eyring_pressure_exponent": {"value": 0.7}}
+    part |= {"pressure_GPa": [0.4, 1.2], "temperature_C": [40.0, 100.0], "source": "made up"}
+    found, notes = read_pair(written(tmp_path, changed(lubricant={"traction": part})))
+    other, none = read_pair(written(tmp_path, changed(lubricant={"eyring_stress_MPa": 7.0})))
+    assert [one.text for one in notes if one.code == "traction_unread"] == [
+        "bevel gears do not read the traction part of the oil; Eyring stress 7 MPa"
+    ]
+    assert not [one for one in none if one.code == "traction_unread"]
+    assert found.map()["mean_friction"] == pytest.approx(other.map()["mean_friction"], rel=1e-12)
+
+
 def test_schlenk_reads_the_mean_point(tmp_path):
     """Whole force at the mean point over the mean length of contact lines; speed and curvature of the mean point."""
     pair = losses(tmp_path, options={"friction": "schlenk"})

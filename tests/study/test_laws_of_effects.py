@@ -25,6 +25,13 @@ def wheels(study):
         yield inputs[f"{side}_radius"], np.ravel(inputs[f"{side}_speed"]), inputs[f"{side}_teeth"]
 
 
+def test_an_uncertain_effect_is_refused_with_what_a_study_takes(write_study):
+    with pytest.raises(
+        InputError, match=r"only \[uncertainty\] of boundary_friction, viscosity, .*roughness; leave it"
+    ):
+        read_study(write_study(effects={"windage": {"strength_sd": 0.1}}))
+
+
 def test_churning_is_that_of_changenet_and_velex(write_study):
     loss, study = added(write_study, churning={})
     inputs, (_, gear) = study.plan.inputs, wheels(study)

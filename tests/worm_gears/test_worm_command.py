@@ -75,6 +75,37 @@ def test_the_form_of_the_standard_with_own_numbers(tmp_path):
 
 
 @pytest.mark.parametrize(
+    ("given", "law", "angle"),
+    [
+        (None, NUMBERS, 0.0),
+        (20.0, NUMBERS, 20.0),
+        (None, {}, 20.0),
+        (None, {"law": "constant", "constant": 0.06}, 20.0),
+    ],
+)
+def test_the_standard_s_friction_contains_the_pressure_angle(tmp_path, given, law, angle):
+    needs = {"worm_roughness_Ra_um": 0.5, "pressure_angle_deg": given}
+    losses = read_drive(written(tmp_path, friction=law, gears=needs, **FILM))[0].map()
+    assert np.tan(losses.angle) == pytest.approx(losses.friction / np.cos(np.radians(angle)), rel=1e-12)
+
+
+def test_oil_far_from_its_viscosities_is_said(tmp_path, capsys):
+    """The oil is given by 40 and 100 degC: 140 is beyond by more than 30 K."""
+    file = written(tmp_path, conditions={"oil_temperature_C": [60.0, 140.0]}, **FILM)
+    assert main(["worm", str(file), "--no-figures", "--out", str(tmp_path / "out")]) == 0
+    said = " ".join(capsys.readouterr().err.split())
+    assert "of 24 conditions 12 extrapolated a little: the viscosity is extrapolated far from the two" in said
+    assert "here up to 140 °C" in said
+
+
+def test_what_was_taken_for_the_oil_and_unusual_numbers_are_said(tmp_path):
+    film = {"film": FILM["film"], "lubricant": {"base": "mineral"}}
+    _, notes = read_drive(written(tmp_path, gears={"youngs_modulus_GPa": [206.0, 0.2]}, **film))
+    assert {"oil_typical", "value_unusual"} <= {one.code for one in notes}
+    assert any("0.2, where rigs have 0.3 to 1300 GPa" in one.text for one in notes)
+
+
+@pytest.mark.parametrize(
     ("tables", "said"),
     [
         (
@@ -92,6 +123,13 @@ def test_the_form_of_the_standard_with_own_numbers(tmp_path):
         ),
         ({"gears": {"worm_diameter_mm": 8.0, "centre_distance_mm": None}}, "no body below 2.5 modules, 10 mm"),
         ({"conditions": {"worm_speed_rpm": [0.0, 10.0]}}, "worm_speed_rpm 0: above 0"),
+        (
+            {"conditions": {"oil_temperature_C": [60.0, -300.0]}},
+            "oil_temperature_C: [60.0, -300.0]: entry 2 must be from -60",
+        ),
+        ({"conditions": {"oil_temperature_C": [1000.0]}}, "entry 1 must be from -60 to 300 °C"),
+        ({"gears": {"youngs_modulus_GPa": [-1.0, 0.0]}}, "entry 1 must be from 0.1 to 2000 GPa"),
+        ({"gears": {"poisson_ratio": [0.3, -2.0]}}, "entry 2 must be from 0 to 0.4999"),
         (
             {"friction": {"law": "constant", "constant": 0.99}, "gears": {"threads": 10, "pressure_angle_deg": 30.0}},
             "the worm jams: no torque turns the wheel from a friction of 0.779 on, here up to 0.99",
@@ -115,7 +153,7 @@ def friction_map(drive):
     return speed, torque, np.where(speed * torque > 0, ideal / found.driving - ideal, ideal - ideal * found.driven)
 
 
-@pytest.mark.parametrize("friction", [{}, NUMBERS, {"law": "constant", "constant": 0.06}])
+@pytest.mark.parametrize("friction", [{}, {"material": 1.5}, NUMBERS, {"law": "constant", "constant": 0.06}])
 def test_the_law_for_friction_maps_is_the_mesh_s_loss(tmp_path, friction):
     needs = {"gears": {"worm_roughness_Ra_um": 0.5}, **FILM} if friction is NUMBERS else {}
     drive, _ = read_drive(written(tmp_path, friction=friction, **needs))
