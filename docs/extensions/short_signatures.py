@@ -10,7 +10,9 @@ from sphinx.application import Sphinx
 def _as_written(app: Sphinx, function: Any, bound_method: bool) -> None:
     """Leave the keys of a file out of a signature, as the function is written."""
     while function is not None:
-        getattr(function, "__dict__", {}).pop("__signature__", None)
+        own = getattr(function, "__dict__", None)
+        if isinstance(own, dict):
+            own.pop("__signature__", None)
         function = getattr(function, "__wrapped__", None)
 
 
