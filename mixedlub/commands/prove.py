@@ -158,11 +158,8 @@ def command(
     if export is not None:
         _export(export, cases or default, seed, chosen, jobs, not quick, planner)
         return
-    name = (
-        f"real_{split}"
-        if real is not None
-        else f"{dealing}_" * bool(dealing) + prefix + ("quick" if quick else "battery")
-    )
+    dealt = f"{dealing}_{prefix}" if dealing else prefix
+    name = f"real_{split}" if real is not None else dealt + ("quick" if quick else "battery")
     folder = output_folder(out, NAME, name)
     with Progress(console=Console(stderr=True)) as bar:
         tasks = {}

@@ -13,7 +13,7 @@ from mixedlub.validation.battery import deck, drawn_rigs, ordered, shuffled, sur
 from mixedlub.validation.measures import coverage, false_physics, held_ratio, unknown_suspected
 from mixedlub.validation.rigs import FAMILIES
 from mixedlub.validation.sample_case import Order
-from mixedlub.validation.score import FIGURES, Figure, Measured, at_least, at_most
+from mixedlub.validation.score import FIGURES, Figure, Measured, any_case, at_least, at_most, share
 from profiles.errors import InputError
 
 KINDS = ("gear_pair", "disc", "film", "friction_map", "friction_history")
@@ -98,10 +98,6 @@ def _lawless(truth: Truth, answer: Answer) -> bool:
     return not _lawful(truth, answer)
 
 
-def _any(truth: Truth, answer: Answer) -> bool:
-    return True
-
-
 def _claimed(truth: Truth, answer: Answer) -> bool:
     return bool(answer.laws)
 
@@ -134,27 +130,17 @@ def _within(beyond: bool, measure: Callable[[Truth, Answer], float]) -> Callable
     return found
 
 
-def _share(
-    key: str,
-    text: str,
-    counts: Callable[[Truth, Answer], bool],
-    measure: Callable[[Truth, Answer], float],
-    goal: tuple[float, float] | None = None,
-) -> Measured:
-    return Figure(key, text, counts, measure, goal, "share")
-
-
 def _both(truth: Truth, answer: Answer) -> bool:
     return _lawful(truth, answer) and _claimed(truth, answer)
 
 
 OUTSIDE_FIGURES: tuple[Measured, ...] = (
-    _share("said", "unknown said or tied, and no false name at 0.9", _any, _said, at_least(0.90)),
-    _share("false_name", "  a false name at 0.9 or more", _any, false_physics, at_most(0.04)),
-    _share("stage", "a law describes it: quantity right or tied", _lawful, _stage, at_least(0.80)),
-    _share("shape", "  shape right, up to equivalence", _lawful, _shape, at_least(0.60)),
-    _share("stage_claimed", "  quantity right or tied, where a law is claimed", _both, _stage),
-    _share("none_claimed", "no law describes it: none claimed", _lawless, _no_law, at_least(0.90)),
+    share("said", "unknown said or tied, and no false name at 0.9", any_case, _said, at_least(0.90)),
+    share("false_name", "  a false name at 0.9 or more", any_case, false_physics, at_most(0.04)),
+    share("stage", "a law describes it: quantity right or tied", _lawful, _stage, at_least(0.80)),
+    share("shape", "  shape right, up to equivalence", _lawful, _shape, at_least(0.60)),
+    share("stage_claimed", "  quantity right or tied, where a law is claimed", _both, _stage),
+    share("none_claimed", "no law describes it: none claimed", _lawless, _no_law, at_least(0.90)),
     Figure("inside", "withheld inside the range: error over recalibration", _lawful, _within(False, held_ratio),
            at_most(0.35), "median"),
     Figure("beyond", "withheld beyond the range: error over recalibration", _lawful, _within(True, held_ratio),

@@ -170,8 +170,19 @@ Measured = Figure[Truth, Answer]
 """Figure of a battery of simulated rigs."""
 
 
-def _any(truth: Truth, answer: Answer) -> bool:
+def any_case(truth: Truth, answer: Answer) -> bool:
     return True
+
+
+def share(
+    key: str,
+    text: str,
+    counts: Callable[[Truth, Answer], bool],
+    measure: Callable[[Truth, Answer], float],
+    goal: tuple[float, float] | None = None,
+) -> Measured:
+    """Figure of a yes-or-no measure."""
+    return Figure(key, text, counts, measure, goal, "share")
 
 
 def _spoiled(truth: Truth, answer: Answer) -> bool:
@@ -268,7 +279,7 @@ FIGURES: tuple[Measured, ...] = (
     Figure(
         "outliers_false",
         "good readings flagged as outliers",
-        _any,
+        any_case,
         outliers_false,
         at_most(0.005),
         "share",
@@ -285,12 +296,12 @@ FIGURES: tuple[Measured, ...] = (
     ),
     Figure("held_out_unknown", "  outside the catalogue", _in("unknown"), held_ratio, reduction="median"),
     Figure("held_out_none", "  where nothing is missing", _in("none"), held_ratio, reduction="median"),
-    Figure("coverage", "90 % predictive intervals cover", _any, coverage, (0.85, 0.95)),
+    Figure("coverage", "90 % predictive intervals cover", any_case, coverage, (0.85, 0.95)),
     Figure("coverage_hidden", "  where something is hidden", _in(*HIDDEN), coverage),
-    Figure("calibration", "90 % intervals of the calibration cover", _any, calibration_covers),
+    Figure("calibration", "90 % intervals of the calibration cover", any_case, calibration_covers),
     Figure("location", "location AUROC", _in(*HIDDEN), location_auroc, at_least(0.85)),
-    Figure("seconds", "seconds a case, median", _any, _seconds, at_most(10.0), "median"),
-    Figure("slowest", "seconds a case, worst", _any, _seconds, at_most(30.0), "max"),
+    Figure("seconds", "seconds a case, median", any_case, _seconds, at_most(10.0), "median"),
+    Figure("slowest", "seconds a case, worst", any_case, _seconds, at_most(30.0), "max"),
 )
 HALVES = (("right_within", "right_beyond"), ("tied_within", "tied_beyond"))
 """Figures shown only if both halves have counts."""

@@ -95,15 +95,15 @@ def refine(search: Search, fit: Fit, sizes: Sequence[tuple[float, float]] = FORM
         columns = np.hstack([fixed, base_size * base, size * form])
         linear = linear_fit(fit.anchor, columns, fit.weight)
         scores[i, j] = score = linear.evidence + np.log(weight) + np.log(base_weight)
-        own = np.diag(covariance(columns, linear.weight))[: fit.z.size]
-        tried.append((score, linear.coefficients[: fit.z.size], own))
+        own = covariance(columns, linear.weight)
+        tried.append((score, linear.coefficients[: fit.z.size], np.diag(own)[: fit.z.size]))
         if score > best_score:
-            best, best_score, used, form_error_size, base_error_size = linear, score, columns, size, base_size
+            best, best_score, used, spread = linear, score, columns, own
+            form_error_size, base_error_size = size, base_size
     assert best is not None
     shares = np.exp(scores - best_score).sum(axis=1)
     squares = np.array([size for size, _ in sizes]) ** 2
     bend_rms = float(np.sqrt(shares @ squares / shares.sum()))
-    spread = covariance(used, best.weight)
     spread[at_change_points, at_change_points] = 0.0
     variance = _variance_over(tried)
     variance[at_change_points] = 0.0

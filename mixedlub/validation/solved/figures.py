@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from mixedlub.validation.answers import Answer, Truth
 from mixedlub.validation.measures import false_physics, right, tied, unknown_suspected
-from mixedlub.validation.score import FIGURES, Figure, Measured, at_least, at_most
+from mixedlub.validation.score import FIGURES, Measured, any_case, at_least, at_most, share
 
 LOSSES = frozenset({"windage", "bearing_drag"})
 
@@ -23,32 +23,18 @@ def _counts(
     )
 
 
-def _share(
-    key: str,
-    text: str,
-    counts: Callable[[Truth, Answer], bool],
-    measure: Callable[[Truth, Answer], float],
-    goal: tuple[float, float] | None = None,
-) -> Measured:
-    return Figure(key, text, counts, measure, goal, "share")
-
-
-def _any(truth: Truth, answer: Answer) -> bool:
-    return True
-
-
 _OWN = (
-    _share("tied_discs", "discs: what is concealed, right or tied", _counts("single", "disc"), tied, at_least(0.85)),
-    _share("tied_gears", "gears: what is concealed, right or tied", _counts("single", "gear_pair"), tied,
+    share("tied_discs", "discs: what is concealed, right or tied", _counts("single", "disc"), tied, at_least(0.85)),
+    share("tied_gears", "gears: what is concealed, right or tied", _counts("single", "gear_pair"), tied,
            at_least(0.80)),
-    _share("tied_losses", "gears: a loss beside the mesh, right or tied",
+    share("tied_losses", "gears: a loss beside the mesh, right or tied",
            _counts("single", "gear_pair", loss=True), tied, at_least(0.85)),
-    _share("none", "no effect, maybe another rheology or balance: none or laws", _counts("none"), right,
+    share("none", "no effect, maybe another rheology or balance: none or laws", _counts("none"), right,
            at_least(0.90)),
-    _share("none_formulas", "  the formulas as base", _counts("none", full=False), right),
-    _share("none_full", "  full solutions as base", _counts("none", full=True), right),
-    _share("unknown_false", "  unknown above 0.5", _counts("none"), unknown_suspected),
-    _share("false_physics", "a false effect at 0.9 or more", _any, false_physics, at_most(0.04)),
+    share("none_formulas", "  the formulas as base", _counts("none", full=False), right),
+    share("none_full", "  full solutions as base", _counts("none", full=True), right),
+    share("unknown_false", "  unknown above 0.5", _counts("none"), unknown_suspected),
+    share("false_physics", "a false effect at 0.9 or more", any_case, false_physics, at_most(0.04)),
 )  # fmt: skip
 _AS_EVER = ("outliers_found", "outliers_false", "held_out", "coverage", "location", "seconds", "slowest")
 SOLVED_FIGURES: tuple[Measured, ...] = (

@@ -13,7 +13,7 @@ from mixedlub.validation.measures import (
     tied,
     unknown_suspected,
 )
-from mixedlub.validation.score import FIGURES, Figure, Measured, at_least, at_most
+from mixedlub.validation.score import FIGURES, Figure, Measured, any_case, at_least, at_most, share
 from mixedlub.validation.worlds.catalogue import TOGETHER
 
 Counts = Callable[[Truth, Answer], bool]
@@ -32,16 +32,6 @@ def _clear(*groups: str) -> Counts:
 
 def _together(group: str) -> Counts:
     return lambda truth, answer: truth.group == group and set(TOGETHER) <= truth.laws
-
-
-def _any(truth: Truth, answer: Answer) -> bool:
-    return True
-
-
-def _share(
-    key: str, text: str, counts: Counts, measure: Callable[[Truth, Answer], float], goal: Goal = None
-) -> Measured:
-    return Figure(key, text, counts, measure, goal, "share")
 
 
 def _by_law(key: str, text: str, laws: Callable[[Truth], frozenset[str]], goal: Goal) -> Measured:
@@ -63,20 +53,20 @@ def _every_law(truth: Truth, answer: Answer) -> float:
 
 _NOTHING = _in("none")
 _LAWS = (
-    _share("false_physics", "nothing missing: a false effect at 0.9 or more", _NOTHING, false_physics, at_most(0.03)),
-    _share("none", "  none, or laws alone", _NOTHING, right),
-    _share("unknown_false", "  unknown above 0.5", _NOTHING, unknown_suspected, at_most(0.05)),
-    _share("none_together", "  four laws at once: none, or laws alone", _together("none"), right, at_least(0.90)),
-    _share("unknown_together", "  four laws at once: unknown above 0.5", _together("none"), unknown_suspected,
+    share("false_physics", "nothing missing: a false effect at 0.9 or more", _NOTHING, false_physics, at_most(0.03)),
+    share("none", "  none, or laws alone", _NOTHING, right),
+    share("unknown_false", "  unknown above 0.5", _NOTHING, unknown_suspected, at_most(0.05)),
+    share("none_together", "  four laws at once: none, or laws alone", _together("none"), right, at_least(0.90)),
+    share("unknown_together", "  four laws at once: unknown above 0.5", _together("none"), unknown_suspected,
            at_most(0.05)),
     _by_law("law", "law named or tied, where it leaves over 100", lambda truth: truth.clear_laws, at_least(0.70)),
     _by_law("law_sole", "  of these, no law of another step comes near", lambda truth: truth.sole_laws, None),
-    _share("laws_all", "  all such laws of a rig", lambda truth, answer: bool(truth.clear_laws), _every_law),
-    _share("law_false", "a law named that the rig does not follow", _any, false_law),
-    _share("tied", "one effect: right or tied, beside any laws", _in("single"), tied, at_least(0.95)),
-    _share("right", "  right, where identifiable", _clear("single"), right),
-    _share("tied_together", "  four laws at once: right or tied", _together("single"), tied, at_least(0.85)),
-    _share("fault", "an instrument fault: right or tied, beside any laws", _in("measurement"), tied),
+    share("laws_all", "  all such laws of a rig", lambda truth, answer: bool(truth.clear_laws), _every_law),
+    share("law_false", "a law named that the rig does not follow", any_case, false_law),
+    share("tied", "one effect: right or tied, beside any laws", _in("single"), tied, at_least(0.95)),
+    share("right", "  right, where identifiable", _clear("single"), right),
+    share("tied_together", "  four laws at once: right or tied", _together("single"), tied, at_least(0.85)),
+    share("fault", "an instrument fault: right or tied, beside any laws", _in("measurement"), tied),
 )  # fmt: skip
 
 
