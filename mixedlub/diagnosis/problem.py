@@ -158,17 +158,11 @@ class Problem:
         return self.transform(self.forward.predict(self.calibration(z)))
 
     def jacobian(
-        self,
-        explanation: Explanation,
-        z: np.ndarray,
-        at: Run | None = None,
-        near: np.ndarray | None = None,
-        corrections: bool = False,
+        self, explanation: Explanation, z: np.ndarray, at: Run | None = None, near: np.ndarray | None = None
     ) -> np.ndarray:
         """Derivative of predictions over sd with respect to z, by one-sided differences within the range of the laws.
 
-        With a derivative ``near`` by, its columns of small corrections to base laws are reused, as they hardly change;
-        with ``corrections``, all other columns are.
+        With a derivative ``near`` by, its columns of small corrections to base laws are reused, as they hardly change.
         """
         here = self.run(explanation, z) if at is None else at
         calibration, parameters = self.calibration(z), self.parameters(explanation, z)
@@ -177,7 +171,7 @@ class Problem:
         slopes = np.empty((self.y.size, z.size))
         small = {i for i, c in enumerate(self.forward.calibrations) if c.base_law}
         for i, (values, parameter) in enumerate(priors):
-            if near is not None and (i in small) != corrections:
+            if near is not None and i in small:
                 slopes[:, i] = near[:, i]
                 continue
             kept = values[parameter.name]

@@ -3,8 +3,9 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
+from mixedlub.chain.powers import power
 from mixedlub.chain.priors import LogNormal, Uniform
-from mixedlub.laws.flattening import wave_amplitude
+from mixedlub.laws.flattening import amplitude_left
 
 REFERENCE = 0.01
 NODES, WEIGHTS = np.polynomial.hermite_e.hermegauss(3)
@@ -96,15 +97,15 @@ def micro_ehl(
     speed = 2.0 * inlet * entrainment_speed / (reduced_modulus * radius)
     load = 2.0 * np.pi * (hertz_pressure / reduced_modulus) ** 2 * speed**-0.5
     material = pressure_viscosity * reduced_modulus * speed**0.25
-    scale = 2.0 * np.pi * relative_wavelength / hertz_half_width
+    rate = 2.0 * np.pi * relative_wavelength / hertz_half_width * power(load, 0.75) * power(material, -0.5)
     kept: list[list[np.ndarray]] = [[], [], []]
     first = (height_share, slope_share, curvature_share)
     for heights, slopes, curvatures in (first, tuple(1.0 - share for share in first)):
-        length = scale * np.sqrt(m0 * heights / (m2 * slopes))
+        typical = rate * np.sqrt(m0 * heights / (m2 * slopes))
         variance = 0.25 * spread * np.log(np.maximum(m0 * heights * m4 * curvatures / (m2 * slopes) ** 2, 1.0))
+        longer = [np.exp(np.sqrt(variance) * node) for node in NODES]
         for place, share in enumerate((heights, slopes, curvatures)):
-            middle = length * np.exp((1 - 2 * place) * variance)
-            waves = (middle * np.exp(np.sqrt(variance) * node) for node in NODES)
-            left = (w * wave_amplitude(wave, load, material) ** 2 for w, wave in zip(WEIGHTS, waves, strict=True))
+            middle = typical * np.exp((1 - 2 * place) * variance)
+            left = (w * amplitude_left(middle * length) ** 2 for w, length in zip(WEIGHTS, longer, strict=True))
             kept[place].append(share * sum(left))
     return m0 * sum(kept[0]), m2 * sum(kept[1]), m4 * sum(kept[2])

@@ -222,14 +222,13 @@ def _laplace_fit(
     state = _gauss_newton(
         problem, explanation, state, log_likelihood, tolerance=tolerance, rival=rival, hopeless=hopeless
     )
-    slopes = problem.jacobian(explanation, state.z, state.run, state.slopes, corrections=True)
-    columns = np.hstack([slopes, problem.shared])
+    columns = np.hstack([state.slopes, problem.shared])
     curvature = np.eye(columns.shape[1]) + columns.T @ (columns * state.weight[:, None])
     evidence = -state.cost - 0.5 * float(np.linalg.slogdet(curvature)[1])
     prediction = state.run.prediction
     common = problem.shared @ state.shared
     residual = (problem.y - prediction) / problem.sd - common
-    return Fit(explanation, state.z, prediction, residual, common, slopes, state.weight, evidence)
+    return Fit(explanation, state.z, prediction, residual, common, state.slopes, state.weight, evidence)
 
 
 def damped_update(
@@ -293,7 +292,7 @@ class _State:
     cost: float
     weight: np.ndarray
     exact: bool = True
-    """Whether the slopes were computed at these coordinates."""
+    """Whether all slopes were computed at these coordinates."""
 
 
 def _gauss_newton(
@@ -308,11 +307,12 @@ def _gauss_newton(
 ) -> _State:
     """Damped Gauss-Newton steps until the gain is below the tolerance, or the fit is hopelessly behind its rival.
 
-    Every second Jacobian is only corrected along the step; the last step and the result have a full Jacobian.
+    Every second Jacobian is only corrected along the step, and the others reuse the columns of small corrections to
+    base laws; only the last step has a full Jacobian, which the result keeps.
     """
     z, shared, run, slopes = state.z, state.shared, state.run, state.slopes
     cost, weight = _cost(problem, run.prediction, z, shared, likelihood)
-    damping, exact = DAMPING_START, state.exact
+    damping, exact, secant = DAMPING_START, state.exact, False
     for step_number in range(GAUSS_NEWTON_STEPS):
         columns = np.hstack([slopes, problem.shared])
         scaled = columns * weight[:, None]
@@ -335,20 +335,25 @@ def _gauss_newton(
         else:
             if exact:
                 break
-            slopes, exact, damping = problem.jacobian(explanation, z, run, slopes), True, DAMPING_START
+            slopes, exact, secant, damping = problem.jacobian(explanation, z, run), True, False, DAMPING_START
             continue
         near = cost - new_cost < max(tolerance, PRECISION_BEHIND * (rival + cost))
-        change = (tried.prediction - run.prediction) / problem.sd
-        # The secant of a very short step is noise.
-        precise, exact = exact, near or not exact or float(np.max(np.abs(moved - z), initial=0.0)) < FINITE_STEP
-        slopes = problem.jacobian(explanation, moved, tried, slopes) if exact else _secant(slopes, moved - z, change)
-        z, shared, run, cost, weight = moved, moved_shared, tried, new_cost, new_weight
-        damping = max(damping / DAMPING_FALL, LEAST_DAMPING)
-        if near and precise:
+        done, moves, change = near and exact, moved - z, (tried.prediction - run.prediction) / problem.sd
+        z, shared, run, cost, weight, exact = moved, moved_shared, tried, new_cost, new_weight, near and not exact
+        if done:
             break
-    if not exact:
-        slopes = problem.jacobian(explanation, z, run, slopes)
-    return _State(z, shared, run, slopes, cost, weight)
+        # The secant of a very short step is noise.
+        secant = not (near or secant or float(np.max(np.abs(moves), initial=0.0)) < FINITE_STEP)
+        damping = max(damping / DAMPING_FALL, LEAST_DAMPING)
+        if secant:
+            slopes = _secant(slopes, moves, change)
+        elif exact:
+            slopes, damping = problem.jacobian(explanation, z, run), min(damping, DAMPING_START)
+        else:
+            slopes = problem.jacobian(explanation, z, run, slopes)
+    else:
+        slopes, exact = (slopes if exact else problem.jacobian(explanation, z, run)), True
+    return _State(z, shared, run, slopes, cost, weight, exact)
 
 
 def _secant(slopes: np.ndarray, step: np.ndarray, change: np.ndarray) -> np.ndarray:

@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from mixedlub.diagnosis.inference.change_points import integrate_change_points
-from mixedlub.diagnosis.inference.map_fit import Fit, map_fit
+from mixedlub.diagnosis.inference.map_fit import Fit, linear_fit, map_fit
 from mixedlub.diagnosis.problem import Problem
-from mixedlub.diagnosis.settings.inference import FIT_TOLERANCE, HOPELESS_LAW, NESTED_TOLERANCE, OUTLIER_WEIGHT, SPIKE
+from mixedlub.diagnosis.settings.inference import (
+    FIT_TOLERANCE,
+    HOPELESS_LAW,
+    LINEAR_ROUNDS,
+    MOST_COORDINATE,
+    NESTED_TOLERANCE,
+    OUTLIER_WEIGHT,
+    SPIKE,
+)
 
 
 def published_odds(
@@ -21,26 +29,69 @@ def published_odds(
     The rest of the explanation is fitted again, its change points integrated. Log odds beyond ``worst`` against the law
     need not be resolved.
     """
+    for effect, law, nested, kept in _nested(problem, free):
+        fit = _nested_fit(nested, free, kept, worst, tolerance)
+        yield effect, law, integrate_change_points(nested, fit).evidence - free.evidence
+
+
+def published_gain(problem: Problem, free: Fit) -> float:
+    """Change of an explanation's log evidence by the published laws of its effects; at least -log 2 for each effect.
+
+    A published law must not be lost to free parameters that the readings do not need.
+    """
+    return _gain((effect, odds) for effect, _, odds in published_odds(problem, free, HOPELESS_LAW, NESTED_TOLERANCE))
+
+
+def linearised_gain(problem: Problem, free: Fit) -> float:
+    """Estimate of `published_gain` with the slopes of the free fit."""
+    found = ((effect, _linearised(nested, free, kept)[1]) for effect, _, nested, kept in _nested(problem, free))
+    return _gain((effect, evidence - free.evidence) for effect, evidence in found)
+
+
+def _gain(found: Iterable[tuple[str, float]]) -> float:
+    odds: dict[str, list[float]] = {}
+    for effect, log_odds in found:
+        odds.setdefault(effect, []).append(log_odds)
+    return sum(
+        float(np.logaddexp(np.log1p(-SPIKE), np.log(SPIKE / len(logs)) + np.logaddexp.reduce(logs)))
+        for logs in odds.values()
+    )
+
+
+def _nested(problem: Problem, free: Fit) -> Iterator[tuple[str, str, Problem, np.ndarray]]:
+    """Effect, law, problem with the law's parameters fixed, and places of the other coordinates in the free fit."""
     place = problem.calibration_size
     for e in problem.effects(free.explanation):
         names = [p.name for p in e.parameters]
         for law, values in e.laws_within_reach.items():
             drop = [place + names.index(name) for name in values]
             nested = replace(problem, fixed={**problem.fixed, e.id: {**problem.fixed.get(e.id, {}), **values}})
-            fit = _nested_fit(nested, free, drop, worst, tolerance)
-            yield e.id, law, integrate_change_points(nested, fit).evidence - free.evidence
+            yield e.id, law, nested, np.delete(np.arange(free.z.size), drop)
         place += len(names)
 
 
-def _nested_fit(nested: Problem, free: Fit, drop: list[int], worst: float, tolerance: float) -> Fit:
+def _linearised(nested: Problem, free: Fit, kept: np.ndarray) -> tuple[np.ndarray, float]:
+    """Most probable coordinates of the rest and log evidence, from two rounds with the slopes of the free fit."""
+    z, weight, slopes = free.z[kept], free.weight, free.slopes[:, kept]
+    columns, evidence = np.hstack([slopes, nested.shared]), -np.inf
+    for _ in range(LINEAR_ROUNDS):
+        residual = (nested.y - nested.predict(free.explanation, z)) / nested.sd
+        if not np.isfinite(residual).all():
+            return free.z[kept], -np.inf
+        linear = linear_fit(residual + slopes @ z, columns, weight)
+        z = np.clip(linear.coefficients[: z.size], -MOST_COORDINATE, MOST_COORDINATE)
+        weight, evidence = linear.weight, linear.evidence
+    return z, evidence
+
+
+def _nested_fit(nested: Problem, free: Fit, kept: np.ndarray, worst: float, tolerance: float) -> Fit:
     """Fit the rest of an explanation again, also from a distant start if the near start has more outliers."""
-    start, slopes = np.delete(free.z, drop), np.delete(free.slopes, drop, axis=1)
     fit = map_fit(
         nested,
         free.explanation,
-        start,
+        _linearised(nested, free, kept)[0],
         warm=True,
-        slopes=slopes,
+        slopes=free.slopes[:, kept],
         rival=free.evidence,
         hopeless=worst,
         tolerance=tolerance,
@@ -49,18 +100,4 @@ def _nested_fit(nested: Problem, free: Fit, drop: list[int], worst: float, toler
         free.weight < OUTLIER_WEIGHT
     ):
         return fit
-    return max(fit, map_fit(nested, free.explanation, start), key=lambda one: one.evidence)
-
-
-def published_gain(problem: Problem, free: Fit) -> float:
-    """Change of an explanation's log evidence by the published laws of its effects; at least -log 2 for each effect.
-
-    A published law must not be lost to free parameters that the readings do not need.
-    """
-    odds: dict[str, list[float]] = {}
-    for name, _, log_odds in published_odds(problem, free, HOPELESS_LAW, NESTED_TOLERANCE):
-        odds.setdefault(name, []).append(log_odds)
-    return sum(
-        float(np.logaddexp(np.log1p(-SPIKE), np.log(SPIKE / len(logs)) + np.logaddexp.reduce(logs)))
-        for logs in odds.values()
-    )
+    return max(fit, map_fit(nested, free.explanation, free.z[kept]), key=lambda one: one.evidence)

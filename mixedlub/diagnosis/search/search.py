@@ -15,7 +15,7 @@ from mixedlub.diagnosis.inference.change_points import integrate_change_points
 from mixedlub.diagnosis.inference.initial_guesses import PriorDraws, fit_singles, sample
 from mixedlub.diagnosis.inference.likelihood import log_likelihood
 from mixedlub.diagnosis.inference.map_fit import Fit, Linear, map_fit
-from mixedlub.diagnosis.inference.nested_laws import published_gain
+from mixedlub.diagnosis.inference.nested_laws import linearised_gain, published_gain
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.law_error import BaseError, law_error_evidence
 from mixedlub.diagnosis.search.prior_odds import PriorOdds
@@ -30,6 +30,7 @@ from mixedlub.diagnosis.settings.inference import (
 )
 from mixedlub.diagnosis.settings.search import (
     AFFECTED,
+    LAWS_REFITTED_WITHIN,
     MANY,
     PUBLISHED_WITHIN,
     REFITTED_ON_ALL,
@@ -245,8 +246,11 @@ def _scores(
     weights = {m: score + odds.log(m) for m, score in scores.items()}
     best = max(weights.values())
     near = [m for m, weight in weights.items() if weight > best - PUBLISHED_WITHIN]
-    gains = shared_out(lambda m: published_gain(problem, fits[m]), near)
-    return {**scores, **{m: scores[m] + gain for m, gain in zip(near, gains, strict=True)}}
+    gains = dict(zip(near, shared_out(lambda m: linearised_gain(problem, fits[m]), near), strict=True))
+    best = max(weights[m] + gain for m, gain in gains.items())
+    nearer = [m for m in near if weights[m] + gains[m] > best - LAWS_REFITTED_WITHIN]
+    gains |= zip(nearer, shared_out(lambda m: published_gain(problem, fits[m]), nearer), strict=True)
+    return {m: score + gains.get(m, 0.0) for m, score in scores.items()}
 
 
 def _fit_pairs(

@@ -120,6 +120,9 @@ SPIKE = 0.5
 HOPELESS_LAW = 15.0
 """Judgement. Log odds against a law from which it adds nothing: 3e-7."""
 
+LINEAR_ROUNDS = 2
+"""Cost limit. Rounds in which the rest of an explanation follows a fixed law with the slopes of the free fit."""
+
 # Pairs of effects
 PAIR_LEADERS = 12
 """Cost limit. Best single effects with which pairs are formed; other pairs are found from their draws."""
