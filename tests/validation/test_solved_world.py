@@ -11,8 +11,9 @@ from mixedlub.validation.measures import false_physics, right, tied
 from mixedlub.validation.rig import FILM, SHEAR, play
 from mixedlub.validation.rigs import discs, gears
 from mixedlub.validation.solved import table as tables
+from mixedlub.validation.solved import world
 from mixedlub.validation.solved.deal import plan_solved
-from mixedlub.validation.solved.solver import Place
+from mixedlub.validation.solved.solver import Place, Unsolved
 from mixedlub.validation.solved.table import Physics, Table, between, grid_of, ratios, shares, slip_of
 from mixedlub.validation.solved.world import SWITCHES, draw, laws_of, switched
 from profiles.errors import InputError
@@ -157,3 +158,19 @@ def test_heat_in_the_inlet_belongs_to_heat_in_the_film():
     assert not false_physics(truth, _answer({"film_heating"}, inlet_shear_heating=0.95))
     assert false_physics(truth, _answer({"film_heating"}, starvation=0.95))
     assert right(_truth({"none"}), _answer({FILM}))
+
+
+def test_a_rig_with_a_contact_without_solution_is_drawn_again(monkeypatch):
+    tried = []
+
+    def first_fails(*order):
+        tried.append(order)
+        if len(tried) == 1:
+            raise Unsolved("the contact has no solution")
+        return "second"
+
+    monkeypatch.setattr(world, "_drawn", first_fails)
+    assert draw(np.random.default_rng(0), "disc", "nothing", False) == "second"
+    monkeypatch.setattr(world, "MOST_RIGS", 0)
+    with pytest.raises(InputError, match="every rig has a contact without solution"):
+        draw(np.random.default_rng(0), "disc", "nothing", False)

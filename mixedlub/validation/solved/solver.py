@@ -25,6 +25,10 @@ THINNEST = 1e-5
 """Smallest film of an iteration (b^2/R)."""
 
 
+class Unsolved(InputError):
+    """A contact whose iteration does not settle."""
+
+
 @dataclass(frozen=True)
 class Place:
     """Conditions of a contact, in SI and C: reduced radius, load a width, speeds of both surfaces, temperature.
@@ -253,7 +257,7 @@ def solve(
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         found = _settled(problem, guess, thermal)
     if found is None:
-        raise InputError("the contact has no solution", where="solved contact", value=place)
+        raise Unsolved("the contact has no solution", where="solved contact", value=place)
     return _solution(problem, found)
 
 

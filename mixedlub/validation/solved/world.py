@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -14,14 +15,18 @@ from mixedlub.validation.planted import FORMS
 from mixedlub.validation.rig import FILM, SHEAR, Form, Knob, Law, Rig
 from mixedlub.validation.rigs import discs, gears
 from mixedlub.validation.solved.fluid import carreau, eyring, limited
+from mixedlub.validation.solved.solver import Unsolved
 from mixedlub.validation.solved.table import Physics, Table, table
 from mixedlub.validation.worlds import follow
 from mixedlub.validation.worlds.catalogue import Followed, World, following
 from mixedlub.validation.worlds.mixed import BALANCES
 from mixedlub.validation.worlds.traction import li_kahraman
+from profiles.errors import InputError
 
 SOURCE = "full solutions of the generator"
 ALWAYS = ("gear_pair", "disc")
+MOST_RIGS = 20
+"""Rigs that are drawn until every contact has a solution."""
 NOTHING, THERMAL, STARVED, LIMITED, RHEOLOGY, LOADS, WINDAGE, BEARINGS = (
     "nothing",
     "thermal",
@@ -121,8 +126,18 @@ def draw(
 ) -> tuple[Rig, World, tuple[Form, ...], np.ndarray]:
     """A rig of full physics with something switched on: rig, laws, planted effects and calibration.
 
-    The base has Eyring's law without heat, or with heat if the case declares full solutions as its base.
+    The base has Eyring's law without heat, or with heat if the case declares full solutions as its base. A rig with a
+    contact that has no solution is drawn again.
     """
+    for _ in range(MOST_RIGS):
+        with suppress(Unsolved):
+            return _drawn(rng, kind, switch, full_base)
+    raise InputError("every rig has a contact without solution", where=kind, value=switch)
+
+
+def _drawn(
+    rng: np.random.Generator, kind: str, switch: str, full_base: bool
+) -> tuple[Rig, World, tuple[Form, ...], np.ndarray]:
     room = gears if kind == "gear_pair" else discs
     case = room.draw_case(rng, coated=False)
     if full_base:
