@@ -16,6 +16,8 @@ from mixedlub.running.atomic import writing
 from profiles.errors import InputError, nearest
 
 if TYPE_CHECKING:
+    from importlib.resources.abc import Traversable
+
     from mixedlub.schema.section import FileTable, Section
 
 NAME = "new"
@@ -186,7 +188,7 @@ def example_files(what: str) -> dict[str, str]:
     """Example files of a law, a hypoid pair, a worm drive, or gearboxes of two stages and of two planetary stages."""
     from mixedlub import efficiency, own_laws, skew_gears, worm_gears
 
-    files: dict[str, dict[str, Path]] = {
+    files: dict[str, dict[str, Traversable]] = {
         LAW: {"law.toml": own_laws.EXAMPLE},
         BEVEL: {"bevel.toml": skew_gears.EXAMPLE},
         WORM: {"worm.toml": worm_gears.EXAMPLE},
