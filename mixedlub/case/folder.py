@@ -149,7 +149,7 @@ def check_rows(found: Kind, system: system_file.System, folder: Path, table: Tab
 
 
 def header_of(folder: Path, names: Sequence[str]) -> list[str]:
-    """Columns of the first of these tables that is a text file; none where its reading will report an error."""
+    """Columns of the first of these tables that is a text file; none if its reading will report an error."""
     for name in names:
         path = folder / f"{name}.csv"
         if path.is_file():

@@ -303,7 +303,7 @@ class System(RigFile):
     @field_validator("recording", mode="before")
     @classmethod
     def _of_any_quantity(cls, given: Any, info: ValidationInfo) -> Any:
-        """Recording of any quantity for kinds whose columns depend on the case."""
+        """Recording of any quantity for kinds with columns that depend on the case."""
         if not isinstance(given, Mapping) or not _has_own_columns(info.data.get("kind")):
             return given
         return SimulatedRecording.model_validate(given, context=info.context)
@@ -311,7 +311,7 @@ class System(RigFile):
     @field_validator("uncertainty", mode="before")
     @classmethod
     def _of_any_input(cls, given: Any, info: ValidationInfo) -> Any:
-        """Inputs of any name for kinds whose columns depend on the case."""
+        """Inputs of any name for kinds with columns that depend on the case."""
         if not isinstance(given, Mapping) or not _has_own_columns(info.data.get("kind")):
             return given
         return SimulationUncertainty(inputs={name: simulation_input(name, one) for name, one in given.items()})
