@@ -110,26 +110,6 @@ _FIT = {
 # Elements a pass: memory stays bounded, and passes last long enough that threads seldom wait for the interpreter.
 _CHUNK = 131_072
 
-POPULAR_FITS = {
-    "F5/2 power": (2.5, lambda t: 4.4086e-5 * np.maximum(4.0 - t, 0.0) ** 6.804),
-    "F2 power": (2.0, lambda t: 3.5e-5 * np.maximum(4.0 - t, 0.0) ** 6.9),
-    "F5/2 exponential": (2.5, lambda t: 0.6189 * np.exp(-1.973 * t)),
-    "F2 exponential": (2.0, lambda t: 0.5025 * np.exp(-1.844 * t)),
-}
-"""Approximations in circulation, by name: (n, function of t). Good for comparison, not for use."""
-
-
-def popular_fit_error(name: str, t: np.ndarray | float) -> np.ndarray:
-    """Relative error of an approximation in circulation at gap ratios t; ``name`` is a key of `POPULAR_FITS`.
-
-    >>> error = popular_fit_error("F5/2 power", [0.0, 1.0, 2.0, 3.0])
-    >>> [round(100 * float(e), 1) for e in error]   # percent
-    [-10.7, -3.5, -9.2, -74.2]
-    """
-    n, fit = POPULAR_FITS[name]
-    t = np.asarray(t, dtype=float)
-    return fit(t) / gaussian_integral(n, t) - 1.0
-
 
 def gaussian_integral(n: float, t: np.ndarray | float) -> np.ndarray:
     r"""F_n(t) for any n > -1 and any gap ratio t, to 1e-12 relative for whole n and 3e-9 for halves.

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import form_tables
 import markdown_tables as md
+import oils_and_gears
 import one_law
 import real_recordings
 import scores
@@ -86,15 +87,15 @@ def pieces() -> dict[str, str]:
         "factor_keys": _file_keys("mixedlub.study.factor_file", "FactorFile"),
         "factor_columns": _factor_columns(),
         "friction_laws": _friction_laws(),
-        "oils": _oils(),
-        "oils_known": _oils_known(),
+        "oils": oils_and_gears.oils(),
+        "oils_known": oils_and_gears.oils_known(),
         "oil_keys": _oil_keys(),
         "gear_keys": _file_keys("mixedlub.gear.analysis.file", "GearAnalysisFile"),
         "bevel_keys": _file_keys("mixedlub.skew_gears.file", "BevelFile", OF_CASES),
         "worm_keys": _file_keys("mixedlub.worm_gears.file", "WormFile", OF_CASES),
         "efficiency_keys": _file_keys("mixedlub.efficiency.file", "EfficiencyFile"),
         "part_laws": _part_laws(),
-        "presets": _presets(),
+        "presets": oils_and_gears.presets(),
         "evaluations": _evaluations(),
         "law_keys": _file_keys("mixedlub.own_laws.file", "LawFile"),
         "ehl_keys": _file_keys("mixedlub.ehl.file", "EhlFile"),
@@ -198,68 +199,6 @@ def _part_laws() -> str:
         for law in of_kind(kind).values():
             parts += _page_of(law, f"### {law.name}", page(law))
     return "\n\n".join(parts)
-
-
-def _oils() -> str:
-    """Every oil that comes with the package: its numbers with unit, status and source."""
-    from mixedlub.schema.oil_file import oil_names, shipped_oil
-
-    parts = []
-    for name in oil_names():
-        oil = shipped_oil(name)
-        parts += [f"## {name}", f"{oil.name}, base stock `{oil.base}`. {oil.about}".rstrip()]
-        rows = [(key, _numbers(one.value), one.status, one.source) for key, one in oil.properties.items()]
-        parts.append(md.named_table(("key", "value", "status", "source"), rows))
-        if oil.further:
-            further = [
-                (
-                    key,
-                    f"{one.equation}; {', '.join(f'{n} = {v:g}' for n, v in one.values.items())}",
-                    one.status,
-                    one.source,
-                )
-                for key, one in oil.further.items()
-            ]
-            parts += ["Further laws:", md.named_table(("law", "equation and numbers", "status", "source"), further)]
-    return "\n\n".join(parts)
-
-
-def _oils_known() -> str:
-    """Temperatures and pressures at which each oil is known, and its laws."""
-    from mixedlub.schema.oil_file import oil_names, shipped_oil
-
-    rows = []
-    for name in oil_names():
-        oil = shipped_oil(name)
-        known = oil.properties
-        viscosity, alpha = known["kinematic_viscosity_mm2_s"], known["pressure_viscosity_per_GPa"]
-        at = _numbers(known["temperature_C"].value)
-        coefficient = at if alpha.temperature_C is None else f"{alpha.temperature_C:g}"
-        law = "modulus equation, Roelands" if "pressure_modulus_MPa" in known else "Roelands"
-        stress = known.get("eyring_stress_MPa")
-        shear = "typical" if stress is None else f"{_numbers(stress.value)} MPa, {stress.status}"
-        limit = oil.further.get("limiting_stress")
-        limited = "not known" if limit is None else f"{limit.values['Lambda']:g} p, not used"
-        rows.append((name, f"{at} °C, {viscosity.status}", f"{coefficient} °C, {alpha.status}", law, shear, limited))
-    head = ("oil", "viscosity", "coefficient under pressure", "law under pressure", "Eyring stress", "limiting stress")
-    return md.named_table(head, rows)
-
-
-def _presets() -> str:
-    """Every gear pair that comes with the package: its numbers with status and source."""
-    from mixedlub.schema.gear_file import gear_names, shipped_gears
-
-    parts = []
-    for name in gear_names():
-        gears = shipped_gears(name)
-        parts += [f"## {name}", f"{gears.name}. {gears.about} Source: {gears.source}."]
-        rows = [(key, _numbers(one.value), one.status, one.note) for key, one in gears.properties.items()]
-        parts.append(md.named_table(("key", "value", "status", "note"), rows))
-    return "\n\n".join(parts)
-
-
-def _numbers(value: Any) -> str:
-    return ", ".join(f"{x:g}" for x in (value if isinstance(value, tuple) else (value,)))
 
 
 def _oil_keys() -> str:

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from mixedlub.schema.findings import as_texts, warn_of
+from mixedlub.schema.lubricant_section import Lubricant
 from mixedlub.schema.surface_file import SurfaceSection
-from mixedlub.schema.system_file import Gears, Lubricant
+from mixedlub.schema.system_file import Gears
 from mixedlub.schema.toml_file import parse
 from mixedlub.study.curves import ALONG_PATH, OF_POINTS
 from mixedlub.study.friction_comparison import judged

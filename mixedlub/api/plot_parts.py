@@ -13,8 +13,9 @@ from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.report.style import panels, styled
 from mixedlub.rig import build
 from mixedlub.schema.findings import collected
+from mixedlub.schema.lubricant_section import Lubricant
 from mixedlub.schema.surface_file import SurfaceSection
-from mixedlub.schema.system_file import Gears, Lubricant
+from mixedlub.schema.system_file import Gears
 from profiles.errors import InputError
 
 if TYPE_CHECKING:

@@ -11,9 +11,10 @@ from mixedlub.api.signatures import with_keys_of
 from mixedlub.rig import build
 from mixedlub.rig.measured import Measured
 from mixedlub.schema.findings import collected, warn_of
+from mixedlub.schema.lubricant_section import Lubricant
 from mixedlub.schema.oil_file import STOCKS
 from mixedlub.schema.surface_file import SurfaceSection
-from mixedlub.schema.system_file import Gears, Lubricant
+from mixedlub.schema.system_file import Gears
 from mixedlub.schema.toml_file import named_file, parse
 from mixedlub.study.record import as_moments
 from profiles import SHIPPED_MARK, Profile, shipped

@@ -143,7 +143,7 @@ def _files(root: Path) -> Iterator[Path]:
 
 
 def table_of(path: Path, rows: int) -> dict[str, Any] | None:
-    """Header and first rows of a CSV file; None if there is no such file."""
+    """Header and first rows of a CSV file; None without the file."""
     if not path.is_file():
         return None
     with path.open(encoding="utf-8", newline="") as file:

@@ -71,7 +71,7 @@ pages = APIRouter(include_in_schema=False)
 
 
 async def created(desk: Desk, files: list[UploadFile]) -> Item:
-    """A new set of surfaces, whose evaluation is started."""
+    """A new set of surfaces, with its evaluation started."""
     item = desk.store.create(PAGE, "surfaces")
     try:
         names = await desk.saved(item, files)

@@ -11,29 +11,26 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from mixedlub.case.columns import case_columns
 from mixedlub.case.import_file import read_import_file
 from mixedlub.case.missing_part import MissingPart, table_columns
 from mixedlub.case.reach import Reach, reach_of
 from mixedlub.chain.effect import Effect
 from mixedlub.full_base.words import WORDS
-from mixedlub.gear import ROUNDED
 from mixedlub.kinds import Kind, kind
 from mixedlub.own_laws import as_hypothesis, by_id, distinct, read_laws
 from mixedlub.rig.rig import Rig
 from mixedlub.running.shell import quoted
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, listed, report
-from mixedlub.schema.shown import Summarised
+from mixedlub.schema.shown import Summarised, span
 from mixedlub.schema.table import (
     BOOKKEEPING,
     RUN,
     Column,
     Table,
-    check_column,
     frame_of,
     read_table,
-    sd_column,
-    span,
     table_of,
 )
 from profiles.errors import InputError, as_path, nearest
@@ -152,7 +149,7 @@ def check_rows(found: Kind, system: system_file.System, folder: Path, table: Tab
 
 
 def header_of(folder: Path, names: Sequence[str]) -> list[str]:
-    """Columns of the first of these tables that is a text file; none where its reading will report an error."""
+    """Columns of the first of these tables that is a text file; none if its reading will report an error."""
     for name in names:
         path = folder / f"{name}.csv"
         if path.is_file():
@@ -232,13 +229,13 @@ def _checked(
         )
     reach = reach_of(system, found, where)
     with collected() as notes:
-        recordings = table("recordings", _columns(found, system, True))
+        recordings = table("recordings", case_columns(found, system, True))
         if recordings is not None:
             _refuse_stuck(recordings, quantity, folder)
             check_rows(found, system, folder, recordings, None)
             recordings = _with_filled_sds(recordings, f"{quantity}_sd")
         _report_missing_check(system.recording.check, recordings)
-        conditions = table("conditions", _columns(found, system, False))
+        conditions = table("conditions", case_columns(found, system, False))
         conditions = None if conditions is None else _with_filled_sds(conditions, f"{quantity}_sd")
         if conditions is not None and recordings is not None:
             check_rows(found, system, folder, conditions, recordings)
@@ -255,17 +252,7 @@ def _checked(
 
         refuse(found, system, rig, (recordings, conditions))
     case = Case(
-        name,
-        folder,
-        system,
-        found,
-        rig,
-        recordings,
-        conditions,
-        tuple(notes),
-        laws,
-        reach=reach,
-        missing=missing,
+        name, folder, system, found, rig, recordings, conditions, tuple(notes), laws, reach=reach, missing=missing
     )
     return with_hypotheses(case, hypotheses)
 
@@ -301,7 +288,7 @@ def _missing_part(folder: Path, system: system_file.System, found: Kind) -> Miss
 
 def read_conditions(case: Case, path: Path) -> Table:
     """Another table of conditions for the case; without a column ``run``, rows are numbered after the recorded runs."""
-    columns = _columns(case.kind, case.system, False)
+    columns = case_columns(case.kind, case.system, False)
     found = read_table(path, columns, first_run=_free_run(case), imported=True)
     if case.recordings is not None:
         check_rows(case.kind, case.system, path.parent, found, case.recordings)
@@ -314,7 +301,7 @@ def conditions_for(case: Case, at: Frame) -> Table:
     if RUN.name not in frame:
         first = _free_run(case)
         frame = frame.assign(run=np.arange(first, first + len(frame)))
-    wanted = table_of(frame, _columns(case.kind, case.system, False), "conditions")
+    wanted = table_of(frame, case_columns(case.kind, case.system, False), "conditions")
     if case.recordings is not None:
         check_rows(case.kind, case.system, case.folder, wanted, case.recordings)
     refuse_used_runs(case, wanted, Path(wanted.source))
@@ -400,32 +387,9 @@ def _with_filled_sds(table: Table, name: str) -> Table:
     return replace(table, columns={**table.columns, name: np.where(known, table[name], middle)})
 
 
-def _columns(found: Kind, system: system_file.System, measured: bool) -> tuple[Column, ...]:
-    """Columns allowed in a table of the case; kinds with surfaces take the names of the system's surfaces."""
-    names = tuple(system.surfaces) if "surfaces" in found.sections else ()
-    own = (replace(c, names=names) if c.dtype == "name" and "surface" in c.name else c for c in found.columns)
-    reach = found.column_limits(system)
-    own = (_rounded(c, *reach[c.name]) if c.name in reach else c for c in own)
-    return (RUN, *BOOKKEEPING, *own, *found.instrument_channels, *_measured(found, system, measured))
-
-
 def columns_of(case: Case, measured: bool) -> tuple[Column, ...]:
     """Columns allowed in a table of a case, with the reading if ``measured``."""
-    return _columns(case.kind, case.system, measured)
-
-
-def _rounded(column: Column, low: float, high: float) -> Column:
-    """The column limited to the range of the rig, widened by the rounding of recordings."""
-    margin = ROUNDED * (high - low)
-    return replace(column, at_least=low - margin, at_most=high + margin)
-
-
-def _measured(found: Kind, system: system_file.System, required: bool) -> tuple[Column, ...]:
-    """The recorded quantity, its standard deviation, and the check channel."""
-    quantity = system.recording.quantity
-    (reading,) = (replace(column, required=required) for column in found.readings if column.name == quantity)
-    check = system.recording.check
-    return (reading, sd_column(quantity), *([] if check is None else [check_column(check)]))
+    return case_columns(case.kind, case.system, measured)
 
 
 __all__ = ["Case", "case_of", "read_case", "read_conditions", "refuse_used_runs", "unpredicted_runs"]

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -15,6 +16,8 @@ from mixedlub.running.atomic import writing
 from profiles.errors import InputError, nearest
 
 if TYPE_CHECKING:
+    from importlib.resources.abc import Traversable
+
     from mixedlub.schema.section import FileTable, Section
 
 NAME = "new"
@@ -72,21 +75,7 @@ def command(
     named = what
     if what == TABLE:
         what, kind = CASE, TABLE
-    makers = {
-        STUDY: study_files,
-        FACTORS: factor_files,
-        EHL: ehl_files,
-        GEAR: gear_files,
-        BEVEL: bevel_files,
-        WORM: worm_files,
-        EFFICIENCY: efficiency_files,
-        FRICTION_LAWS: friction_law_files,
-        LAW: law_files,
-    }
-    if what in makers:
-        files = makers[what]()
-    else:
-        files = case_files(kind or KIND) if what == CASE else evaluation_files(what)
+    files = template_files(what, kind or KIND)
     for name in files:
         if out is not None and (out / name).exists():
             raise InputError("exists, and a template would replace it; name another --out", where=str(out / name))
@@ -95,28 +84,53 @@ def command(
         for name, text in files.items():
             (aside / name).write_text(text, encoding="utf-8")
     place, commands = {
-        STUDY: (folder / "study.toml", ("study",)),
-        FACTORS: (folder / "factors.toml", ("factors",)),
-        EHL: (folder / "contacts.toml", ("ehl",)),
-        GEAR: (folder / "gear.toml", ("gear",)),
-        BEVEL: (folder / "bevel.toml", ("bevel",)),
-        WORM: (folder / "worm.toml", ("worm",)),
-        EFFICIENCY: (folder / "efficiency.toml", ("efficiency",)),
+        EHL: (folder / "contacts.toml", (what,)),
         FRICTION_LAWS: (
             folder / "study.toml",
             (f"friction-laws --coefficients {folder / 'coefficients.toml'} --study",),
         ),
         LAW: (folder / "law.toml", ("effects",)),
         CASE: (folder, ("check", "diagnose")),
-    }.get(what, (folder / f"{what}.toml", (f"evaluate {what}",)))
+    }.get(what, (folder / f"{what}.toml", (what if what in TEMPLATES else f"evaluate {what}",)))
     echo(f"{' and '.join(files)} in {folder}, with the numbers of an example: put your own in their place, then")
     for name in commands:
         echo(f"  mixedlub {name} {place}")
 
 
+def template_files(what: str, kind: str = KIND) -> dict[str, str]:
+    """Texts of a template by the names of their files."""
+    makers: dict[str, Callable[[], dict[str, str]]] = {
+        STUDY: study_files,
+        FACTORS: factor_files,
+        EHL: ehl_files,
+        GEAR: gear_files,
+        FRICTION_LAWS: friction_law_files,
+        CASE: partial(case_files, kind),
+        **{name: partial(example_files, name) for name in (LAW, BEVEL, WORM, EFFICIENCY)},
+    }
+    return makers.get(what, partial(evaluation_files, what))()
+
+
 def study_files() -> dict[str, str]:
-    """The file of a study."""
-    return {"study.toml": study_text()}
+    """A study of two surfaces, one by its moments and one by a shipped trace."""
+    from mixedlub.schema.section import examples
+    from mixedlub.study.schema import Conditions, StudyFile
+
+    rig = _reference("gear_pair")
+    first, second = SURFACES
+    given = {
+        "schema": "mixedlub-study/1",
+        "title": "Power loss of two surfaces",
+        "boundary_friction": 0.1,
+        **{section: rig[section] for section in ("gears", "lubricant")},
+        "surfaces": {
+            first: rig["surfaces"][first],
+            second: {"profile": "shipped:0036", "cutoff_mm": 0.8, "short_cutoff_um": 2.5},
+        },
+        "pairings": {"every": list(SURFACES)},
+        "conditions": examples(Conditions),
+    }
+    return {"study.toml": "\n".join(_lines(StudyFile, given, tuple(StudyFile.model_fields))) + "\n"}
 
 
 def factor_files() -> dict[str, str]:
@@ -170,33 +184,17 @@ def evaluation_files(name: str) -> dict[str, str]:
     return {f"{name}.toml": text, **recorded}
 
 
-def law_files() -> dict[str, str]:
-    """A law of the user."""
-    from mixedlub.own_laws import EXAMPLE as LAW_FILE
+def example_files(what: str) -> dict[str, str]:
+    """Example files of a law, a hypoid pair, a worm drive, or gearboxes of two stages and of two planetary stages."""
+    from mixedlub import efficiency, own_laws, skew_gears, worm_gears
 
-    return {"law.toml": LAW_FILE.read_text(encoding="utf-8")}
-
-
-def bevel_files() -> dict[str, str]:
-    """A file of a hypoid pair."""
-    from mixedlub.skew_gears import EXAMPLE
-
-    return {"bevel.toml": EXAMPLE.read_text(encoding="utf-8")}
-
-
-def worm_files() -> dict[str, str]:
-    """A file of a worm drive."""
-    from mixedlub.worm_gears import EXAMPLE
-
-    return {"worm.toml": EXAMPLE.read_text(encoding="utf-8")}
-
-
-def efficiency_files() -> dict[str, str]:
-    """A file of a gearbox of two stages, and one of two planetary stages."""
-    from mixedlub.efficiency import EXAMPLE, PLANETARY_EXAMPLE
-
-    examples = {"efficiency.toml": EXAMPLE, "planetary.toml": PLANETARY_EXAMPLE}
-    return {name: example.read_text(encoding="utf-8") for name, example in examples.items()}
+    files: dict[str, dict[str, Traversable]] = {
+        LAW: {"law.toml": own_laws.EXAMPLE},
+        BEVEL: {"bevel.toml": skew_gears.EXAMPLE},
+        WORM: {"worm.toml": worm_gears.EXAMPLE},
+        EFFICIENCY: {"efficiency.toml": efficiency.EXAMPLE, "planetary.toml": efficiency.PLANETARY_EXAMPLE},
+    }
+    return {name: example.read_text(encoding="utf-8") for name, example in files[what].items()}
 
 
 def friction_law_files() -> dict[str, str]:
@@ -216,28 +214,6 @@ def friction_law_files() -> dict[str, str]:
                 for c in law.coefficients
             ]
     return {**study_files(), "coefficients.toml": "\n".join(lines) + "\n"}
-
-
-def study_text() -> str:
-    """A study of two surfaces, one by its moments and one by a shipped trace."""
-    from mixedlub.schema.section import examples
-    from mixedlub.study.schema import Conditions, StudyFile
-
-    rig = _reference("gear_pair")
-    first, second = SURFACES
-    given = {
-        "schema": "mixedlub-study/1",
-        "title": "Power loss of two surfaces",
-        "boundary_friction": 0.1,
-        **{section: rig[section] for section in ("gears", "lubricant")},
-        "surfaces": {
-            first: rig["surfaces"][first],
-            second: {"profile": "shipped:0036", "cutoff_mm": 0.8, "short_cutoff_um": 2.5},
-        },
-        "pairings": {"every": list(SURFACES)},
-        "conditions": examples(Conditions),
-    }
-    return "\n".join(_lines(StudyFile, given, tuple(StudyFile.model_fields))) + "\n"
 
 
 def case_files(kind: str) -> dict[str, str]:

@@ -22,8 +22,9 @@ from mixedlub.efficiency.part_tables import (
 )
 from mixedlub.efficiency.planetary_file import PlanetaryStage
 from mixedlub.efficiency.thermal_file import Thermal
+from mixedlub.schema.lubricant_section import Lubricant
 from mixedlub.schema.section import Number, NumberOrName, Section, Whole, key
-from mixedlub.schema.system_file import Gears, Lubricant
+from mixedlub.schema.system_file import Gears
 from mixedlub.study.schema import Numbers, Options, each_once
 
 MOST_CONDITIONS = 250_000

@@ -12,7 +12,8 @@ from mixedlub.efficiency.gearbox import Gearbox, Losses
 from mixedlub.efficiency.meshes import LOCAL, conditioned
 from mixedlub.efficiency.stage import StageModel
 from mixedlub.gear import GearPair, LdpSharing, Mesh, at_roll_angle
-from mixedlub.study.plan import HEAT, mesh_inputs
+from mixedlub.study.inputs import mesh_inputs
+from mixedlub.study.plan import HEAT
 
 FINE = 128
 """Slices of oblique lines without contact problems: cheap, each on the path entirely or not at all."""

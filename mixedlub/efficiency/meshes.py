@@ -14,8 +14,9 @@ from mixedlub.chain.slots import SLOTS
 from mixedlub.gear import LdpSharing
 from mixedlub.study import Study, batch
 from mixedlub.study.heat import LOSS, heat_inputs
+from mixedlub.study.inputs import mesh_inputs
 from mixedlub.study.pieces import split
-from mixedlub.study.plan import HEAT, Plan, mesh_inputs
+from mixedlub.study.plan import HEAT, Plan
 from mixedlub.study.validity import reached
 
 MOST_SOLVED = 40

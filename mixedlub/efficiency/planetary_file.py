@@ -9,9 +9,10 @@ from pydantic import Field, model_validator
 
 from mixedlub.efficiency.part_tables import Flanks, NotNegative, Part, Positive, RollingBearing, law_key
 from mixedlub.efficiency.train import CARRIER
+from mixedlub.schema.lubricant_section import Lubricant
 from mixedlub.schema.section import Number, NumberOrName, Section, Whole, key
 from mixedlub.schema.surface_file import SurfaceSection
-from mixedlub.schema.system_file import Gears, Lubricant
+from mixedlub.schema.system_file import Gears
 from mixedlub.study.schema import Options
 from profiles.errors import nearest
 

@@ -71,7 +71,7 @@ class StageModel:
         return self.parts
 
     def mesh_of(self, part: str) -> StageModel:
-        """The one mesh of the stage."""
+        """The only mesh of the stage."""
         return self
 
     def cycles(self, torque: float, speed: float) -> list[tuple[StageModel, float, float]]:

@@ -29,9 +29,10 @@ from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.rig import Rig
 from mixedlub.rig.surface import mean_assumed
 from mixedlub.schema.findings import collected, report
+from mixedlub.schema.lubricant_section import Lubricant
 from mixedlub.schema.section import Number, key
 from mixedlub.schema.surface_file import SurfaceSection
-from mixedlub.schema.system_file import Gears, Lubricant, RigFile
+from mixedlub.schema.system_file import Gears, RigFile
 from mixedlub.schema.table import RUN, Column, Table, read_table
 from mixedlub.schema.toml_file import named_file
 from mixedlub.solutions.law_file import friction_file

@@ -24,9 +24,10 @@ from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.recording.set_points import near_values
 from mixedlub.rig.build import lubricant
 from mixedlub.schema.findings import collected
+from mixedlub.schema.lubricant_section import Lubricant
 from mixedlub.schema.result import curve
 from mixedlub.schema.section import Number, Section, key
-from mixedlub.schema.system_file import Gears, Lubricant, RigFile
+from mixedlub.schema.system_file import Gears, RigFile
 from mixedlub.schema.table import RUN, Column, Table, read_table
 from mixedlub.schema.toml_file import named_file
 from profiles.errors import InputError

@@ -21,8 +21,9 @@ from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.build import lubricant
 from mixedlub.rig.lubricant import Lubricant as Oil
 from mixedlub.schema.findings import collected
+from mixedlub.schema.lubricant_section import Lubricant
 from mixedlub.schema.section import Section, Whole, key
-from mixedlub.schema.system_file import Contact, Lubricant, RigFile
+from mixedlub.schema.system_file import Contact, RigFile
 from mixedlub.schema.table import RUN, Column, Table, read_table
 from mixedlub.schema.toml_file import named_file
 from mixedlub.solutions.law_file import friction_file

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -36,8 +36,8 @@ WHEELS = ("pinion", "gear")
 
 
 @dataclass(frozen=True)
-class LdpSharing:
-    """Elastic sharing; modifications as in ``Modifications``, lengths in m.
+class LdpSharing(Modifications):
+    """Elastic sharing of modified teeth, lengths in m.
 
     ``foundation``: "weber" (half plane) or "sainsot" (ring, needs ``bore_radius``, m, pinion first; about a fifth
     softer). ``torque_end``: the end of the face at which torque enters each body and twists it, "front" (y = 0) or
@@ -45,26 +45,13 @@ class LdpSharing:
     r - 0.625 m_n.
     """
 
-    tip_relief: Pair = (0.0, 0.0)
-    relief_length: Pair = (0.0, 0.0)
-    root_relief: Pair = (0.0, 0.0)
-    root_relief_length: Pair = (0.0, 0.0)
-    relief_form: str = "linear"
-    lead_crown: float = 0.0
-    misalignment: float = 0.0
     foundation: str = "weber"
     bore_radius: Pair | None = None
-    end_relief: Pair = (0.0, 0.0)
-    end_relief_length: Pair = (0.0, 0.0)
-    profile_slope_deviation: Pair = (0.0, 0.0)
-    lead_deviation: tuple[float, ...] = ()
     torque_end: tuple[str, str] = ("none", "none")
     body_radius: Pair | None = None
 
     def __post_init__(self) -> None:
-        checked = self.modifications
-        for field in fields(checked):
-            object.__setattr__(self, field.name, getattr(checked, field.name))
+        super().__post_init__()
         if self.foundation not in FOUNDATIONS:
             raise InputError(nearest(str(self.foundation), FOUNDATIONS), where="foundation", value=self.foundation)
         if self.foundation == "sainsot" and self.bore_radius is None:
@@ -84,18 +71,13 @@ class LdpSharing:
         if self.body_radius is not None and ends == ("none", "none"):
             raise InputError("acts only with torque_end", where="body_diameter_mm")
 
-    @property
-    def modifications(self) -> Modifications:
-        """The micro-geometry alone."""
-        return Modifications(**{field.name: getattr(self, field.name) for field in fields(Modifications)})
-
     def default_slices(self, pair: GearPair) -> int:
         """Eleven resolve crown and misalignment of usual size; oblique contact lines need some more."""
         return 11 if pair.helix_angle == 0 else 17
 
     def check(self, pair: GearPair) -> tuple[Finding, ...]:
         """Raise an error for undercut flanks, reliefs longer than the path, bores outside the range of the ring law."""
-        self.modifications.check(pair)
+        super().check(pair)
         _refuse_undercut(pair)
         if pair.ring:
             self._refuse_on_ring()
@@ -133,7 +115,7 @@ class LdpSharing:
 
     def breakpoints(self, pair: GearPair) -> np.ndarray:
         """Ends of contact and starts of relief of this pair and, whole base pitches away, of its neighbours."""
-        marks = np.concatenate([self.modifications.starts(pair), [pair.pitch_point]])
+        marks = np.concatenate([self.starts(pair), [pair.pitch_point]])
         shifts = pair.base_pitch * np.arange(-int(pair.contact_ratio) - 1, int(pair.contact_ratio) + 2)
         marks = (marks[:, None] + shifts).ravel()
         inside = (marks > pair.path_start) & (marks < pair.path_end)
@@ -308,7 +290,7 @@ def _solved(
     beyond = pair.base_pitch * (REACH if edge_contact else 1e-8)
     possible = (position >= pair.path_start - beyond) & (position <= pair.path_end + beyond)
     inside = np.clip(position, pair.path_start, pair.path_end)
-    gap = sharing.modifications.gap(pair, inside, face) + stand_back[..., None]
+    gap = sharing.gap(pair, inside, face) + stand_back[..., None]
     if edge_contact:
         gap = gap + corner_gap(pair, position)
     bore = sharing.bore_radius if sharing.foundation == "sainsot" else None

@@ -22,6 +22,8 @@ from profiles.errors import InputError
 
 Pair = tuple[float, float]
 COUNTED = "a number of teeth is a whole number from 4 to 9999, for a ring gear (the second) the same below zero"
+PRESSURE_ANGLE = "the pressure angle lies between 5 and 45 degrees"
+HELIX_ANGLE = "the helix angle lies between -60 and 60 degrees"
 
 
 def involute(angle: float) -> float:
@@ -114,47 +116,21 @@ class GearPair:
             raise InputError(rule, where="teeth", value=teeth[1])
         degrees = math.degrees(1.0)
         checked: dict[str, Any] = {"teeth": (int(teeth[0]), int(teeth[1]))}
-        checked["normal_module"] = number(
-            "normal_module_mm",
-            self.normal_module,
-            1e-6,
-            1.0,
-            "the module is above 0.001 and below 1000 mm",
-            1e3,
-        )
-        checked["pressure_angle"] = number(
-            "pressure_angle_deg",
-            self.pressure_angle,
-            math.radians(5),
-            math.radians(45),
-            "the pressure angle lies between 5 and 45 degrees",
-            degrees,
-        )
-        checked["helix_angle"] = number(
-            "helix_angle_deg",
-            self.helix_angle,
-            -math.radians(60),
-            math.radians(60),
-            "the helix angle lies between -60 and 60 degrees",
-            degrees,
-        )
-        checked["face_width"] = number(
-            "face_width_mm", self.face_width, 0.0, 10.0, "the face width is above zero and below 10 m", 1e3
-        )
+        steep, slanted = math.radians(45), math.radians(60)
+        single: dict[str, tuple[str, float, float, str, float]] = {
+            "normal_module": ("normal_module_mm", 1e-6, 1, "the module is above 0.001 and below 1000 mm", 1e3),
+            "pressure_angle": ("pressure_angle_deg", math.radians(5), steep, PRESSURE_ANGLE, degrees),
+            "helix_angle": ("helix_angle_deg", -slanted, slanted, HELIX_ANGLE, degrees),
+            "face_width": ("face_width_mm", 0, 10, "the face width is above zero and below 10 m", 1e3),
+            "dedendum": ("dedendum", 0.5, 3, "the dedendum of a rack lies between 0.5 and 3 modules", 1),
+        }
+        for name, (key, low, high, rule, scale) in single.items():
+            checked[name] = number(key, getattr(self, name), low, high, rule, scale)
         rules: dict[str, tuple[str, float, float, str, float]] = {
-            "profile_shift": (
-                "profile_shift",
-                -5,
-                5,
-                "a profile shift is a number of modules from -5 to 5",
-                1,
-            ),
+            "profile_shift": ("profile_shift", -5, 5, "a profile shift is a number of modules from -5 to 5", 1),
             "youngs_modulus": ("youngs_modulus_GPa", 0, 1e13, "Young's modulus is above zero", 1e-9),
             "poisson_ratio": ("poisson_ratio", -1, 0.5, "Poisson's ratio lies between -1 and 0.5", 1),
         }
-        checked["dedendum"] = number(
-            "dedendum", self.dedendum, 0.5, 3.0, "the dedendum of a rack lies between 0.5 and 3 modules"
-        )
         sense, given = self.sense, {name: getattr(self, name) for name in (*rules, "tip_radius", "centre_distance")}
         if self.ring:
             given = _of_one_sign(given)

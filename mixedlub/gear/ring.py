@@ -59,7 +59,7 @@ def longest_ring_tip(pair: Internal) -> float:
 
 
 def refuse_interference(pair: Internal, tips: tuple[float, ...], standard: str) -> None:
-    """Raise an error for a ring whose tips foul the tips or the root of the wheel inside it.
+    """Raise an error for a ring with tips that foul the tips or the root of the wheel inside it.
 
     ``tips``, ``standard``: tip diameters (mm) and a remark on them for the message.
     """

@@ -17,8 +17,8 @@ from mixedlub.report.style import WIDTH, styled
 from mixedlub.rig.build import lubricant
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.schema.findings import collected
+from mixedlub.schema.lubricant_section import Lubricant as Section
 from mixedlub.schema.oil_file import oil_names
-from mixedlub.schema.system_file import Lubricant as Section
 from mixedlub.schema.toml_file import parse
 
 if TYPE_CHECKING:

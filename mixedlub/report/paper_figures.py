@@ -19,6 +19,7 @@ from mixedlub.report.plots import (
     points,
     shown,
     spread,
+    torque_labels,
     with_hollow,
 )
 from mixedlub.report.style import shades, styled
@@ -114,7 +115,7 @@ def _small(results: Results, quantity: str, chosen: Sequence[int] | np.ndarray, 
     figure.supylabel(label, fontsize=TEXT)
     handles = [mark("o", colour) for colour in shades(len(torques))]
     outside = results.outside[chosen, theta][:, torques]
-    _legend(figure, *with_hollow(handles, _torques(results, torques), outside), 3)
+    _legend(figure, *with_hollow(handles, torque_labels(results, torques), outside), 3)
     return figure
 
 
@@ -126,7 +127,7 @@ def _by_torque(results: Results, quantity: str, theta: int) -> Figure:
     torques, speeds = spread(levels.torque_Nm, MOST_TORQUES), spread(levels.speed_rpm, MOST_LEVELS)
     figure = Figure(figsize=(WIDTH, 1.55 * len(torques) + 0.6), layout="constrained")
     axes = figure.subplots(len(torques), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
-    for panel, t, text, letter in zip(axes, torques, _torques(results, torques), "abc"):
+    for panel, t, text, letter in zip(axes, torques, torque_labels(results, torques), "abc"):
         for colour, n in zip(shades(len(speeds)), speeds):
             x, y = _points(results, quantity, theta, int(t), int(n))
             if can_be_fitted(results):
@@ -157,7 +158,7 @@ def _together(results: Results, quantity: str, theta: int) -> Figure:
     handles, names = _speeds(results, speeds)
     outside = results.outside[:, theta][:, torques][..., speeds]
     shapes, told = with_hollow(
-        [mark(shape, "0.35") for shape, _ in zip(SHAPES, torques)], _torques(results, torques), outside
+        [mark(shape, "0.35") for shape, _ in zip(SHAPES, torques)], torque_labels(results, torques), outside
     )
     rows = max(-(-len(names) // 2), len(told))
     empty = 2 * rows - len(names)  # torques take the last column
@@ -175,10 +176,6 @@ def _finish(figure: Figure, axes: Sequence[Axes] | np.ndarray, quantity: str) ->
     axes[0].set_ylim(0.0, 1.05)
     axes[0].set_xlim(left=0.0)
     figure.supylabel(LOSS, fontsize=TEXT)
-
-
-def _torques(results: Results, places: Sequence[int] | np.ndarray) -> list[str]:
-    return [f"{text} N m" for text in shown([results.study.file.conditions.torque_Nm[t] for t in places])]
 
 
 def _speeds(results: Results, places: Sequence[int] | np.ndarray) -> tuple[list[Any], list[str]]:

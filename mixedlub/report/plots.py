@@ -177,7 +177,7 @@ def _over(
     from matplotlib.ticker import NullLocator
 
     torques = spread(results.study.file.conditions.torque_Nm, MOST_LEVELS)
-    labels = _torque_labels(results, torques)
+    labels = torque_labels(results, torques)
     figure, axes, columns = panels(len(chosen), 3)
     for panel, pairing in zip(axes, chosen):
         for colour, t, label in zip(shades(len(torques)), torques, labels):
@@ -217,7 +217,7 @@ def is_wide(values: np.ndarray) -> bool:
     return bool(values.max() > 0) and float(values.min()) * WIDE < float(values.max())
 
 
-def _torque_labels(results: Results, places: Sequence[int] | np.ndarray) -> list[str]:
+def torque_labels(results: Results, places: Sequence[int] | np.ndarray) -> list[str]:
     return [f"{text} N m" for text in shown([results.study.file.conditions.torque_Nm[t] for t in places])]
 
 
@@ -228,7 +228,7 @@ def loss_over(results: Results, quantity: str, theta: int, *, fitted: bool = Fal
     own_scales = has_own_scales(results, theta)
     figure, axes, _ = panels(len(torques), 3, height=2.9, sharey=not own_scales)
     squares: list[list[str]] = [[] for _ in speeds]
-    for panel, t, text, letter in zip(axes, torques, _torque_labels(results, torques), "abc"):
+    for panel, t, text, letter in zip(axes, torques, torque_labels(results, torques), "abc"):
         for colour, n, fits in zip(shades(len(speeds)), speeds, squares):
             x = results[quantity][:, theta, t, n] * AXIS[quantity][1]
             y = results["power_loss"][:, theta, t, n]
@@ -298,7 +298,7 @@ def film_and_friction(results: Results, theta: int) -> Figure:
     for panel, (label, quantity, i, title) in zip(axes, draw):
         values = results[quantity][i, theta] * (1e6 if quantity == "film_thickness" else 1.0)
         outside = results.outside[i, theta] & (quantity != "film_thickness")
-        for colour, t, text in zip(shades(len(torques)), torques, _torque_labels(results, torques)):
+        for colour, t, text in zip(shades(len(torques)), torques, torque_labels(results, torques)):
             _curve(panel, rpm, values[t, order], outside[t, order], colour, text)
             _shade(panel, results, quantity, rpm, lambda a, i=i, t=t: a[i, theta, t, order], colour)  # type: ignore[misc]
         panel.set_title(title, loc="left", fontsize=SMALL)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -145,11 +145,3 @@ def save(figure: Figure, path: Path) -> None:
         return
     with styled():
         figure.savefig(path, dpi=PNG_DPI, metadata=_MADE_BY[path.suffix[1:]])
-
-
-def save_all(drawn: Iterable[tuple[str, Figure]], folder: Path, formats: Sequence[str]) -> None:
-    """Write figures by name into the new folder ``figures`` of a folder, each in every format."""
-    (folder / "figures").mkdir()
-    for name, figure in drawn:
-        for ending in formats:
-            save(figure, folder / "figures" / f"{name}.{ending}")

@@ -6,6 +6,10 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from typing import Any
 
+import numpy as np
+
+from mixedlub.schema.findings import listed
+
 WIDEST = 80
 """Judgement: longest text of a cell that fits a notebook."""
 
@@ -47,3 +51,15 @@ def _text(value: Any) -> str:
     else:
         text = str(value)
     return escape(text if len(text) <= WIDEST else f"{text[:WIDEST]}…")
+
+
+def span(name: str, values: np.ndarray) -> str:
+    """Summary of a column: lowest and highest number, or names.
+
+    >>> span("speed_rpm", np.array([500.0, 3000.0])), span("torque_Nm", np.array([50])), span("setup", np.array(["a"]))
+    ('speed_rpm 500 to 3000', 'torque_Nm 50', 'setup a')
+    """
+    if values.dtype.kind not in "fiu":
+        return f"{name} {listed(sorted(set(values.tolist())))}"
+    low, high = (f"{end:.4g}" for end in (np.nanmin(values), np.nanmax(values)))
+    return f"{name} {low}" if low == high else f"{name} {low} to {high}"

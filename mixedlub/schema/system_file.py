@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Annotated, Any, Literal
 from unicodedata import category
 
@@ -20,12 +19,11 @@ from pydantic import (
 
 from mixedlub.schema.discovery import declared
 from mixedlub.schema.gear_file import gear_names, with_preset
-from mixedlub.schema.oil_file import STOCKS, STRESS, TRACTION, Base, KnownCoefficient, oil_names, with_oil
+from mixedlub.schema.lubricant_section import Lubricant, Pair
 from mixedlub.schema.section import Float, Number, NumberOrName, Section, Whole, key, one_of, tables, with_ranges
 from mixedlub.schema.settable import Settable
 from mixedlub.schema.simulation_file import Condition, SimulationInput, simulation_input
 from mixedlub.schema.surface_file import SurfaceSection
-from mixedlub.schema.traction_part import Traction, eyring_stress_of
 from profiles.errors import InputError
 
 
@@ -44,7 +42,6 @@ def _has_own_columns(kind: object) -> bool:
 
 KINDS = ("mixedlub.kinds", "mixedlub.kinds", "KIND")
 """Module with the kinds of recording, imported only when a file is read because it imports this module."""
-Pair = tuple[Number, Number]
 
 SHARING: tuple[Any, ...] = declared("mixedlub.gear.sharing", "mixedlub.load_sharing", "MODEL")
 """Load-sharing models, each with name, meaning and keys."""
@@ -165,104 +162,6 @@ class Contact(Section):
             raise ValueError("a line contact needs width_mm")
         if self.geometry == "line" and self.transverse_radius_mm is not None:
             raise ValueError('transverse_radius_mm acts only with geometry = "point"; leave it out')
-        return self
-
-
-class Lubricant(Section):
-    oil: str | None = key(
-        f"oil by name ({', '.join(oil_names())}), or its file NAME.toml, relative to this one; what this section "
-        "states itself wins",
-        None,
-        example="n100",
-        alternative=True,
-    )
-    name: str = key("name of the oil, for the report", "unnamed oil", example="sample oil")
-    base: Base | None = key(
-        "base stock, whose typical oil fills what is left out; left out: mineral",
-        None,
-        example="mineral",
-        values=STOCKS,
-    )
-    temperature_C: Pair | None = key("two temperatures, those of the next two keys", None, example=[40.0, 100.0])
-    kinematic_viscosity_mm2_s: Pair | None = key(
-        "kinematic viscosity there; ASTM D341 between and beyond", None, example=[30.0, 6.2]
-    )
-    pressure_viscosity_per_GPa: Pair | None = key(
-        "pressure-viscosity coefficient there; linear between and beyond", None, example=[18.0, 14.0]
-    )
-    known_pressure_viscosity: KnownCoefficient | None = key(
-        "instead of both: a coefficient known at one temperature, and its way to others",
-        None,
-        example={"coefficient_per_GPa": 14.2, "temperature_C": 54.0, "carried": "roelands"},
-        alternative=True,
-    )
-    pressure_modulus_MPa: Pair | None = key(
-        'A of the modulus equation there, for viscosity_law = "modulus"; linear between and beyond',
-        None,
-        example=[55.6, 71.4],
-    )
-    pressure_modulus_slope: Pair | None = key("B of the modulus equation there", None, example=[0.03, 0.04])
-    density_15C_kg_m3: Number | None = key("density at 15 °C", None, example=850.0)
-    density_change_per_K: Number | None = key("relative fall of the density", None, example=7e-4)
-    eyring_stress_MPa: Number | None = key("Eyring stress of the film", None, example=5.0)
-    traction: Traction | None = key(
-        "instead of it: Eyring stress and limiting stress over pressure and temperature, as `mixedlub fit` and "
-        "`mixedlub evaluate two-disc` write them into the file of an oil",
-        None,
-        example={
-            "eyring_stress_MPa": {"value": 5.2, "sd": 0.3},
-            "pressure_GPa": [0.6, 1.5],
-            "temperature_C": [40.0, 120.0],
-            "source": "discs of our laboratory, Roelands",
-        },
-        alternative=True,
-    )
-    thermal_conductivity_W_mK: Number | None = key("thermal conductivity of the oil", None, example=0.14)
-    specific_heat_J_kgK: Number | None = key("specific heat of the oil", None, example=2000.0)
-
-    @field_validator(
-        "kinematic_viscosity_mm2_s",
-        "pressure_viscosity_per_GPa",
-        "pressure_modulus_MPa",
-        "pressure_modulus_slope",
-        mode="before",
-    )
-    @classmethod
-    def _at_both_temperatures(cls, given: Any) -> Any:
-        if isinstance(given, int | float):
-            raise ValueError("must be two numbers, at the two temperatures: [..., ...]")
-        return given
-
-    @model_validator(mode="after")
-    def _both_of_the_modulus(self) -> Lubricant:
-        if (self.pressure_modulus_MPa is None) != (self.pressure_modulus_slope is None):
-            raise ValueError("the modulus equation needs both pressure_modulus_MPa and pressure_modulus_slope")
-        return self
-
-    @model_validator(mode="after")
-    def _one_coefficient(self) -> Lubricant:
-        if self.known_pressure_viscosity is not None:
-            if self.pressure_viscosity_per_GPa is not None:
-                raise ValueError("known_pressure_viscosity takes the place of pressure_viscosity_per_GPa: give one")
-            if self.known_pressure_viscosity.carried == "gold" and self.base is None:
-                raise ValueError('known_pressure_viscosity.carried = "gold" needs base, for the exponent of Gold')
-        return self
-
-    @model_validator(mode="before")
-    @classmethod
-    def _of_its_oil(cls, given: Any, info: ValidationInfo) -> Any:
-        """Complete the section by its oil."""
-        named = given.get("oil") if isinstance(given, Mapping) else None
-        full = given if not isinstance(named, str) else with_oil(given, (info.context or {}).get("folder", Path()))
-        if isinstance(full, Mapping) and full.get(STRESS) is None:
-            stress = eyring_stress_of(full.get(TRACTION))
-            full = full if stress is None else {**full, STRESS: stress}
-        return full
-
-    @model_validator(mode="after")
-    def _one_stress(self) -> Lubricant:
-        if self.traction is not None and self.eyring_stress_MPa != self.traction.eyring_stress_MPa.value:
-            raise ValueError("traction has an Eyring stress of its own: leave eyring_stress_MPa or traction out")
         return self
 
 
@@ -404,7 +303,7 @@ class System(RigFile):
     @field_validator("recording", mode="before")
     @classmethod
     def _of_any_quantity(cls, given: Any, info: ValidationInfo) -> Any:
-        """Recording of any quantity for kinds whose columns depend on the case."""
+        """Recording of any quantity for kinds with columns that depend on the case."""
         if not isinstance(given, Mapping) or not _has_own_columns(info.data.get("kind")):
             return given
         return SimulatedRecording.model_validate(given, context=info.context)
@@ -412,7 +311,7 @@ class System(RigFile):
     @field_validator("uncertainty", mode="before")
     @classmethod
     def _of_any_input(cls, given: Any, info: ValidationInfo) -> Any:
-        """Inputs of any name for kinds whose columns depend on the case."""
+        """Inputs of any name for kinds with columns that depend on the case."""
         if not isinstance(given, Mapping) or not _has_own_columns(info.data.get("kind")):
             return given
         return SimulationUncertainty(inputs={name: simulation_input(name, one) for name, one in given.items()})

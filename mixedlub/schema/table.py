@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mixedlub.schema.cells import csv_rows, is_missing, with_hyphens
-from mixedlub.schema.findings import Finding, finding, listed, report
+from mixedlub.schema.findings import Finding, finding, report
 from mixedlub.schema.long_text import LONG, regular_columns
 from mixedlub.schema.ranges import probable_unit
 from mixedlub.schema.units import fits, read_as, split, unit_of, words_of
@@ -221,18 +221,6 @@ def _long_table(text: str, columns: tuple[Column, ...], key: tuple[str, ...], so
     if len(valid) < len(found) or any(np.unique(valid[name]).size < len(valid[name]) for name in key):
         return None
     return Table(valid, source)
-
-
-def span(name: str, values: np.ndarray) -> str:
-    """Summary of a column: lowest and highest number, or names.
-
-    >>> span("speed_rpm", np.array([500.0, 3000.0])), span("torque_Nm", np.array([50])), span("setup", np.array(["a"]))
-    ('speed_rpm 500 to 3000', 'torque_Nm 50', 'setup a')
-    """
-    if values.dtype.kind not in "fiu":
-        return f"{name} {listed(sorted(set(values.tolist())))}"
-    low, high = (f"{end:.4g}" for end in (np.nanmin(values), np.nanmax(values)))
-    return f"{name} {low}" if low == high else f"{name} {low} to {high}"
 
 
 def frame_of(given: object, where: str) -> pd.DataFrame:

@@ -9,8 +9,8 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from mixedlub.efficiency.file import Flanks, Side
+from mixedlub.schema.lubricant_section import Lubricant, Pair
 from mixedlub.schema.section import Number, Section, Whole, key
-from mixedlub.schema.system_file import Lubricant, Pair
 from mixedlub.skew_gears.blank import ToothData
 from mixedlub.skew_gears.pitch_cones import Basic
 from mixedlub.study.schema import Conditions, Numbers, Options

@@ -22,7 +22,7 @@ from mixedlub.skew_gears.file import BevelFile, altered
 from mixedlub.skew_gears.losses import Losses, Mesh
 from mixedlub.skew_gears.pitch_cones import Basic, NoPitchConesError, largest_offset
 from mixedlub.study.friction_options import check_coefficients, check_oil, check_viscosity
-from mixedlub.study.plan import surface_inputs
+from mixedlub.study.inputs import surface_inputs
 from mixedlub.study.schema import Options
 from profiles.errors import InputError
 

@@ -22,11 +22,6 @@ class ShiftLimit:
     limit: float
     shift: float
 
-    @property
-    def is_undercut(self) -> bool:
-        """Whether the profile shift is beyond the limit."""
-        return self.shift < self.limit if self.member == 0 else self.shift > self.limit
-
 
 def shift_limits(blank: Blank) -> tuple[ShiftLimit, ...]:
     """Limits of the profile shift at both ends of both faces."""

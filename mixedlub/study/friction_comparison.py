@@ -18,8 +18,9 @@ from mixedlub.schema.result import described
 from mixedlub.schema.toml_file import parse
 from mixedlub.study.columns import every_column
 from mixedlub.study.friction_options import check_coefficients, check_oil
+from mixedlub.study.inputs import condition_inputs, surface_inputs
 from mixedlub.study.options import FURTHER, with_friction
-from mixedlub.study.plan import Study, condition_inputs, read_study, surface_inputs
+from mixedlub.study.plan import Study, read_study
 from mixedlub.study.results import Results, run_study
 from mixedlub.study.schema import Conditions, Options, Pairings
 from profiles.errors import InputError, nearest

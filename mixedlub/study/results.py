@@ -15,8 +15,7 @@ from mixedlub.chain.ranges import as_words
 from mixedlub.running.version import installed_version
 from mixedlub.schema.findings import Finding, as_texts, gravest_first, listed
 from mixedlub.schema.result import ResultColumn
-from mixedlub.schema.shown import Summarised
-from mixedlub.schema.table import span
+from mixedlub.schema.shown import Summarised, span
 from mixedlub.schema.table_files import LongTable, write_long
 from mixedlub.schema.units import unit_of
 from mixedlub.study import batch, checkpoint

@@ -13,7 +13,7 @@ from mixedlub.validation.battery import deck, drawn_rigs, ordered, shuffled, sur
 from mixedlub.validation.measures import coverage, false_physics, held_ratio, unknown_suspected
 from mixedlub.validation.rigs import FAMILIES
 from mixedlub.validation.sample_case import Order
-from mixedlub.validation.score import FIGURES, Figure, Measured, any_case, at_least, at_most, share
+from mixedlub.validation.score import FIGURES, Figure, Measured, any_case, at_least, at_most, chosen, share
 from profiles.errors import InputError
 
 KINDS = ("gear_pair", "disc", "film", "friction_map", "friction_history")
@@ -148,6 +148,6 @@ OUTSIDE_FIGURES: tuple[Measured, ...] = (
     Figure("cover_inside", "coverage of 90 % intervals inside the range", _lawful, _within(False, coverage)),
     Figure("cover_beyond", "coverage of 90 % intervals beyond the range", _lawful, _within(True, coverage),
            at_least(0.85)),
-    *(figure for figure in FIGURES if figure.key in ("seconds", "slowest")),
+    *chosen(FIGURES, "seconds", "slowest"),
 )  # fmt: skip
 """Figures of a battery of physics outside the catalogue."""

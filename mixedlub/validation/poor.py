@@ -28,7 +28,7 @@ from mixedlub.validation.planted import FORMS
 from mixedlub.validation.rig import Rig
 from mixedlub.validation.rigs import CLASSES, KINDS, Family, Partners
 from mixedlub.validation.sample_case import FEW, HEAVY, LASTING, MIS_SET, SD_ESTIMATED, Order
-from mixedlub.validation.score import FIGURES, Figure, Measured, at_least
+from mixedlub.validation.score import FIGURES, Measured, any_case, at_least, chosen, of_class, share
 from mixedlub.validation.worlds.figures import WORLD_FIGURES
 from profiles.errors import InputError
 
@@ -113,19 +113,14 @@ def _two_of_three(truth: Truth, answer: Answer) -> float:
     return float(len(truth.label & answer.verdict) >= 2)
 
 
-def _triple_case(truth: Truth, answer: Answer) -> bool:
-    return truth.group == TRIPLE
-
-
 def _few_tied(truth: Truth, answer: Answer) -> float:
     return float(len(answer.tied) <= 3)
 
 
 POOR_FIGURES: tuple[Measured, ...] = (
     *FIGURES,
-    Figure("three", "three effects named, or in one tie", _triple_case, together, at_least(0.6), "share"),
-    Figure("two_of_three", "  two of them named", _triple_case, _two_of_three, reduction="share"),
-    *(figure for figure in WORLD_FIGURES if figure.key in ("false_physics", "unknown_false")),
-    Figure("few_tied", "at most three explanations tied", lambda truth, answer: True, _few_tied, at_least(0.9),
-           "share"),
-)  # fmt: skip
+    share("three", "three effects named, or in one tie", of_class(TRIPLE), together, at_least(0.6)),
+    share("two_of_three", "  two of them named", of_class(TRIPLE), _two_of_three),
+    *chosen(WORLD_FIGURES, "false_physics", "unknown_false"),
+    share("few_tied", "at most three explanations tied", any_case, _few_tied, at_least(0.9)),
+)

@@ -170,30 +170,31 @@ Measured = Figure[Truth, Answer]
 """Figure of a battery of simulated rigs."""
 
 
-def any_case(truth: Truth, answer: Answer) -> bool:
+def any_case(truth: object, answer: object) -> bool:
     return True
 
 
 def share(
     key: str,
     text: str,
-    counts: Callable[[Truth, Answer], bool],
-    measure: Callable[[Truth, Answer], float],
+    counts: Callable[[T, A], bool],
+    measure: Callable[[T, A], float],
     goal: tuple[float, float] | None = None,
-) -> Measured:
+    weight: Callable[[T], int] | None = None,
+) -> Figure[T, A]:
     """Figure of a yes-or-no measure."""
-    return Figure(key, text, counts, measure, goal, "share")
+    return Figure(key, text, counts, measure, goal, "share", weight)
 
 
 def _spoiled(truth: Truth, answer: Answer) -> bool:
     return bool(truth.outliers)
 
 
-def _in(*groups: str) -> Callable[[Truth, Answer], bool]:
+def of_class(*groups: str) -> Callable[[Truth, Answer], bool]:
     return lambda truth, answer: truth.group in groups
 
 
-def _clear(*groups: str) -> Callable[[Truth, Answer], bool]:
+def clear(*groups: str) -> Callable[[Truth, Answer], bool]:
     return lambda truth, answer: truth.group in groups and truth.identifiable
 
 
@@ -235,76 +236,45 @@ def _glaring(truth: Truth, answer: Answer) -> bool:
 ONE, SOME = ("single", "measurement"), ("single", "measurement", "pair")
 HIDDEN = (*SOME, "unknown")
 FIGURES: tuple[Measured, ...] = (
-    Figure("right", "right verdict, one effect, identifiable", _clear(*ONE), right, at_least(0.95), reduction="share"),
-    Figure("right_physics", "  of these physics", _clear("single"), right, reduction="share"),
-    Figure(
-        "right_within", "    their law one that the catalogue can become", _formed(True, True), right, reduction="share"
-    ),
-    Figure("right_beyond", "    their law another", _formed(False, True), right, reduction="share"),
-    Figure("right_fault", "  of these instrument faults", _clear("measurement"), right, reduction="share"),
-    Figure("tied", "right or honestly tied, one effect, all", _in(*ONE), tied, at_least(0.98), reduction="share"),
-    Figure(
-        "tied_within",
-        "  physics, their law one that the catalogue can become",
-        _formed(True, False),
-        tied,
-        reduction="share",
-    ),
-    Figure("tied_beyond", "  physics, their law another", _formed(False, False), tied, reduction="share"),
-    Figure("ties", "explanations named where one effect is hidden", _in(*ONE), _explanations),
-    Figure("pair_both", "both effects of a pair named", _in("pair"), _both, at_least(0.85), reduction="share"),
-    Figure("pair_exact", "pair named exactly", _in("pair"), right, reduction="share"),
-    Figure("none", "none where nothing is missing", _in("none"), right, at_least(0.98), reduction="share"),
-    Figure("false_alarm", "mismatch detected where nothing is missing", _in("none"), _detected, reduction="share"),
-    Figure("power", "mismatch detected where one effect is hidden", _in(*ONE), _detected, reduction="share"),
-    Figure(
-        "unknown",
-        "unknown where so and identifiable",
-        _clear("unknown"),
-        _named_unknown,
-        at_least(0.90),
-        reduction="share",
-    ),
-    Figure("unknown_distinct", "  of these, not made to mimic", _distinct, _named_unknown, reduction="share"),
-    Figure("unknown_clear", "  of these, clearly visible (12 or more)", _glaring, _named_unknown, reduction="share"),
-    Figure(
-        "outliers_found",
-        "outlier readings found",
-        _spoiled,
-        outliers_found,
-        at_least(0.95),
-        reduction="share",
-        weight=spoiled,
-    ),
-    Figure(
-        "outliers_false",
-        "good readings flagged as outliers",
-        any_case,
-        outliers_false,
-        at_most(0.005),
-        "share",
-        clean,
-    ),
-    Figure("crossed", "fault called physics or physics fault", _clear(*ONE), crossed, at_most(0.02), reduction="share"),
-    Figure(
-        "held_out",
-        "withheld: error of predicted over calibrated",
-        _in(*SOME),
-        held_ratio,
-        at_most(0.25),
-        "median",
-    ),
-    Figure("held_out_unknown", "  outside the catalogue", _in("unknown"), held_ratio, reduction="median"),
-    Figure("held_out_none", "  where nothing is missing", _in("none"), held_ratio, reduction="median"),
+    share("right", "right verdict, one effect, identifiable", clear(*ONE), right, at_least(0.95)),
+    share("right_physics", "  of these physics", clear("single"), right),
+    share("right_within", "    their law one that the catalogue can become", _formed(True, True), right),
+    share("right_beyond", "    their law another", _formed(False, True), right),
+    share("right_fault", "  of these instrument faults", clear("measurement"), right),
+    share("tied", "right or honestly tied, one effect, all", of_class(*ONE), tied, at_least(0.98)),
+    share("tied_within", "  physics, their law one that the catalogue can become", _formed(True, False), tied),
+    share("tied_beyond", "  physics, their law another", _formed(False, False), tied),
+    Figure("ties", "explanations named where one effect is hidden", of_class(*ONE), _explanations),
+    share("pair_both", "both effects of a pair named", of_class("pair"), _both, at_least(0.85)),
+    share("pair_exact", "pair named exactly", of_class("pair"), right),
+    share("none", "none where nothing is missing", of_class("none"), right, at_least(0.98)),
+    share("false_alarm", "mismatch detected where nothing is missing", of_class("none"), _detected),
+    share("power", "mismatch detected where one effect is hidden", of_class(*ONE), _detected),
+    share("unknown", "unknown where so and identifiable", clear("unknown"), _named_unknown, at_least(0.90)),
+    share("unknown_distinct", "  of these, not made to mimic", _distinct, _named_unknown),
+    share("unknown_clear", "  of these, clearly visible (12 or more)", _glaring, _named_unknown),
+    share("outliers_found", "outlier readings found", _spoiled, outliers_found, at_least(0.95), weight=spoiled),
+    share("outliers_false", "good readings flagged as outliers", any_case, outliers_false, at_most(0.005),
+          weight=clean),
+    share("crossed", "fault called physics or physics fault", clear(*ONE), crossed, at_most(0.02)),
+    Figure("held_out", "withheld: error of predicted over calibrated", of_class(*SOME), held_ratio, at_most(0.25),
+           "median"),
+    Figure("held_out_unknown", "  outside the catalogue", of_class("unknown"), held_ratio, reduction="median"),
+    Figure("held_out_none", "  where nothing is missing", of_class("none"), held_ratio, reduction="median"),
     Figure("coverage", "90 % predictive intervals cover", any_case, coverage, (0.85, 0.95)),
-    Figure("coverage_hidden", "  where something is hidden", _in(*HIDDEN), coverage),
+    Figure("coverage_hidden", "  where something is hidden", of_class(*HIDDEN), coverage),
     Figure("calibration", "90 % intervals of the calibration cover", any_case, calibration_covers),
-    Figure("location", "location AUROC", _in(*HIDDEN), location_auroc, at_least(0.85)),
+    Figure("location", "location AUROC", of_class(*HIDDEN), location_auroc, at_least(0.85)),
     Figure("seconds", "seconds a case, median", any_case, _seconds, at_most(10.0), "median"),
     Figure("slowest", "seconds a case, worst", any_case, _seconds, at_most(30.0), "max"),
-)
+)  # fmt: skip
 HALVES = (("right_within", "right_beyond"), ("tied_within", "tied_beyond"))
 """Figures shown only if both halves have counts."""
+
+
+def chosen(figures: Sequence[Measured], *keys: str) -> tuple[Measured, ...]:
+    """Figures with the keys, in the order of the keys."""
+    return tuple(figure for key in keys for figure in figures if figure.key == key)
 
 
 def score(

@@ -6,9 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from mixedlub.schema.lubricant_section import Lubricant, Pair
 from mixedlub.schema.ranges import ranges
 from mixedlub.schema.section import Number, Section, Whole, key
-from mixedlub.schema.system_file import Lubricant, Pair
 from mixedlub.study.schema import Numbers, each_once
 
 Positive = Annotated[Number, Field(gt=0.0)]

@@ -6,8 +6,9 @@ from inspect import Parameter, signature
 import pytest
 
 import mixedlub as ml
+from mixedlub.schema.lubricant_section import Lubricant
 from mixedlub.schema.surface_file import SurfaceSection
-from mixedlub.schema.system_file import Gears, Lubricant
+from mixedlub.schema.system_file import Gears
 from profiles.errors import InputError
 
 MOST_CHARACTERS = 3000

@@ -8,34 +8,13 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from mixedlub.cli import main
-from mixedlub.commands.new import (
-    TEMPLATES,
-    bevel_files,
-    case_files,
-    efficiency_files,
-    ehl_files,
-    factor_files,
-    gear_files,
-    law_files,
-    study_files,
-    worm_files,
-)
+from mixedlub.commands.new import TEMPLATES, template_files
 from mixedlub.evaluate import EVALUATIONS
 from mixedlub.kinds import KINDS
 from mixedlub.report.file_classes import FILES
 from mixedlub.report.json_schema import json_schema
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
-MAKERS = {
-    "study": study_files,
-    "factors": factor_files,
-    "gear": gear_files,
-    "bevel": bevel_files,
-    "worm": worm_files,
-    "efficiency": efficiency_files,
-    "ehl": ehl_files,
-    "law": law_files,
-}
 
 
 def errors(name, text):
@@ -50,14 +29,14 @@ def test_a_schema_is_one(name):
 @pytest.mark.parametrize("name", FILES)
 def test_the_template_of_a_file_is_valid(name):
     assert name in TEMPLATES
-    texts = {path: text for path, text in MAKERS[name]().items() if path.endswith(".toml")}
+    texts = {path: text for path, text in template_files(name).items() if path.endswith(".toml")}
     own = next(text for path, text in texts.items() if name in path or len(texts) == 1 or path == "contacts.toml")
     assert errors(name, own) == []
 
 
 @pytest.mark.parametrize("name", KINDS)
 def test_the_template_of_a_case_is_valid(name):
-    assert errors(name, case_files(name)["system.toml"]) == []
+    assert errors(name, template_files("case", name)["system.toml"]) == []
 
 
 @pytest.mark.parametrize("path", sorted(EXAMPLES.glob("study_*.toml")), ids=lambda path: path.stem)

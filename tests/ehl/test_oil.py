@@ -16,8 +16,8 @@ from mixedlub.ehl.oil.declared import VISCOSITY as VISCOSITIES
 from mixedlub.laws.oil import roelands_viscosity
 from mixedlub.rig.build import lubricant
 from mixedlub.schema.findings import collected
+from mixedlub.schema.lubricant_section import Lubricant
 from mixedlub.schema.oil_file import oil_names
-from mixedlub.schema.system_file import Lubricant
 from mixedlub.schema.toml_file import parse
 from profiles.errors import InputError
 

@@ -14,7 +14,7 @@ from mixedlub.case.forward import Forward
 from mixedlub.efficiency.prepare import read_gearbox
 from mixedlub.ehl.oil.file import oil_of
 from mixedlub.evaluate.traction_fit import fitted_traction
-from mixedlub.schema.system_file import Lubricant
+from mixedlub.schema.lubricant_section import Lubricant
 from mixedlub.schema.toml_file import parse, to_toml
 from profiles.errors import InputError
 

@@ -18,7 +18,7 @@ from mixedlub.full_base.solutions import Bodies, Matter, Varied
 from mixedlub.full_base.store import CACHE
 from mixedlub.rig.build import lubricant
 from mixedlub.schema.findings import collected
-from mixedlub.schema.system_file import Lubricant
+from mixedlub.schema.lubricant_section import Lubricant
 from mixedlub.solutions import kept
 from mixedlub.solutions.rigs import STEEL
 

@@ -45,7 +45,7 @@ class TestBehaviour:
         linear = LdpSharing(tip_relief=(10e-6, 10e-6), relief_length=(4e-3, 4e-3))
         curved = replace(linear, relief_form="parabolic")
         x = np.linspace(HONG.path_start, HONG.path_end, 50)
-        gap = [s.modifications.gap(HONG, x, np.zeros_like(x)) for s in (linear, curved)]
+        gap = [s.gap(HONG, x, np.zeros_like(x)) for s in (linear, curved)]
         assert np.all(gap[1] <= gap[0])
         assert gap[1][[0, -1]] == pytest.approx(gap[0][[0, -1]], rel=1e-12)
 

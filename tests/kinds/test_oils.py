@@ -16,8 +16,8 @@ from mixedlub.case.folder import read_case
 from mixedlub.laws.oil import modulus_viscosity, temperature_viscosity
 from mixedlub.rig import build
 from mixedlub.schema.findings import collected
+from mixedlub.schema.lubricant_section import Lubricant
 from mixedlub.schema.oil_file import STATUSES, oil_names, shipped_oil
-from mixedlub.schema.system_file import Lubricant
 from mixedlub.schema.toml_file import to_toml
 from mixedlub.study import read_study, run_study
 from mixedlub.study.record import resolved

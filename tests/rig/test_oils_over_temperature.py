@@ -9,8 +9,8 @@ from mixedlub.ehl.oil.lubricant import from_lubricant
 from mixedlub.report.oil_maps import film_friction, known_range, oil_maps
 from mixedlub.rig.build import lubricant
 from mixedlub.schema.findings import collected
+from mixedlub.schema.lubricant_section import Lubricant
 from mixedlub.schema.oil_file import oil_names
-from mixedlub.schema.system_file import Lubricant
 from mixedlub.schema.toml_file import parse
 
 KELVIN = np.linspace(20.0, 200.0, 19) + 273.15

@@ -8,8 +8,8 @@ import pytest
 from mixedlub import ehl
 from mixedlub.ehl.oil.lubricant import from_lubricant
 from mixedlub.rig.lubricant import Lubricant
-from mixedlub.validation.contact import Oil, Solid
-from mixedlub.validation.solved.fluid import Fluid, carreau, eyring, fluid_of, houpert, limited, newton
+from mixedlub.validation.contact import KELVIN, ROELANDS_PRESSURE, Oil, Solid
+from mixedlub.validation.solved.fluid import Fluid, carreau, eyring, fluid_of, limited, newton
 from mixedlub.validation.solved.fluid import dowson_higginson as denser
 from mixedlub.validation.solved.solver import Place, film_of_moes, solve
 
@@ -20,6 +20,18 @@ OIL = Oil(*SHEET)
 
 
 NEWTON = newton()
+
+
+def houpert(rest, slope, celsius, fall):
+    """Roelands' law in Houpert's form, from viscosity (Pa s), slope (1/Pa) and fall (1/K) at one temperature."""
+    level = np.log(rest) + 9.67
+    power, thinning = slope * ROELANDS_PRESSURE / level, fall * (celsius + KELVIN - 138) / level
+
+    def law(pressure, now):
+        warm = ((now + KELVIN - 138) / (celsius + KELVIN - 138)) ** -thinning
+        return level * (1 + np.maximum(pressure, 0.0) / ROELANDS_PRESSURE) ** power * warm - 9.67
+
+    return law
 
 
 def known(law=NEWTON, rest=REST, slope=COEFFICIENT, celsius=40.0, fall=0.03, conductivity=0.14):

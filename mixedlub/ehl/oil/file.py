@@ -26,9 +26,9 @@ from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.build import lubricant
 from mixedlub.rig.oil_doubts import under_pressure
 from mixedlub.schema.findings import collected, report, warn_of
+from mixedlub.schema.lubricant_section import Lubricant
 from mixedlub.schema.oil_file import SCHEMA, SUFFIX
 from mixedlub.schema.section import Number, Section, check_keys_of, key
-from mixedlub.schema.system_file import Lubricant
 from mixedlub.schema.toml_file import named_file, parse, read_toml
 from profiles.errors import as_path
 

@@ -24,33 +24,48 @@ class Gear:
     face_width: float = 14.0
 
 
-def sliding_of_mesh(gear: Gear, phases: int = 400, slices: int = 60) -> float:
-    """Mean sliding speed over base-circle speed in one base pitch, at constant load per length of contact line."""
+@dataclass(frozen=True)
+class Lines:
+    """Contact lines of a mesh, mm: base radius of the pinion, line of action, places by phase of a base pitch.
+
+    ``lean``: cosine of the base helix angle.
+    """
+
+    base: float
+    length: float
+    lean: float
+    places: list[list[float]]
+
+
+def lines_of(gear: Gear, phases: int, slices: int) -> Lines:
+    """Contact lines at even phases of a base pitch, each as the places of slices of the face."""
     beta = math.radians(gear.helix_angle)
     alpha = math.atan(math.tan(math.radians(gear.pressure_angle)) / math.cos(beta))
     base = [gear.module / math.cos(beta) * z / 2.0 * math.cos(alpha) for z in gear.teeth]
-    working = math.acos((base[0] + base[1]) / gear.centre_distance)
-    length = gear.centre_distance * math.sin(working)
+    length = math.sqrt(gear.centre_distance**2 - (base[0] + base[1]) ** 2)
     tip = [d / 2.0 for d in gear.tip_diameter]
     start = length - math.sqrt(tip[1] ** 2 - base[1] ** 2)
     end = math.sqrt(tip[0] ** 2 - base[0] ** 2)
     pitch = 2.0 * math.pi * base[0] / gear.teeth[0]
     slope = math.tan(beta) * math.cos(alpha)
-    ratio = gear.teeth[1] / gear.teeth[0]
-    total = 0.0
+    found: list[list[float]] = []
     for phase in range(phases):
-        touching = 0
-        sliding = 0.0
+        found.append([])
         for slice_ in range(slices):
             x = start - gear.face_width * slope - pitch + (phase + 0.5) / phases * pitch
             x += (slice_ + 0.5) / slices * gear.face_width * slope
             while x < end:
                 x += pitch
                 if start < x < end:
-                    touching += 1
-                    sliding += abs(x - (length - x) / ratio) / base[0]
-        total += sliding / touching / phases
-    return total / math.cos(math.atan(slope))
+                    found[-1].append(x)
+    return Lines(base[0], length, math.cos(math.atan(slope)), found)
+
+
+def sliding_of_mesh(gear: Gear, phases: int = 400, slices: int = 60) -> float:
+    """Mean sliding speed over base-circle speed in one base pitch, at constant load per length of contact line."""
+    mesh, ratio = lines_of(gear, phases, slices), gear.teeth[1] / gear.teeth[0]
+    slid = (sum(abs(x - (mesh.length - x) / ratio) for x in places) / len(places) for places in mesh.places)
+    return sum(slid) / mesh.base / phases / mesh.lean
 
 
 @dataclass(frozen=True)

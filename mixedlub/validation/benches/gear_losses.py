@@ -5,13 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
-from mixedlub.validation.benches.calorimetric import READ, Calorimeter, Errors, Gear
+from mixedlub.validation.benches.calorimetric import READ, Calorimeter, Columns, Errors, Gear, lines_of
 
-Columns = dict[str, list[Any]]
 LAW = {"c1": 0.045, "c2": -0.22, "c3": 1e-4, "c4": 0.0, "c5": 0.003, "c6": 1.0, "c7": 0.25, "c8": 0.1, "c9": 0.02}
 VISCOSITY = {80.0: 7.4, 120.0: 3.7}
 """mm2/s by temperature."""
@@ -46,38 +44,20 @@ def mesh_loss(
     gear: Gear, law: Mapping[str, float], torque: float, omega: float, nu: float, ra: float, steps: tuple[int, int]
 ) -> float:
     """Mean friction power (W) over a mesh cycle, load per contact length constant; ``steps``: of cycle and face."""
-    phases, slices = steps
-    beta = math.radians(gear.helix_angle)
-    alpha = math.atan(math.tan(math.radians(gear.pressure_angle)) / math.cos(beta))
-    base = [gear.module / math.cos(beta) * z / 2e3 * math.cos(alpha) for z in gear.teeth]
-    centre, width = gear.centre_distance * 1e-3, gear.face_width * 1e-3
-    length = math.sqrt(centre**2 - (base[0] + base[1]) ** 2)
-    tip = [d / 2e3 for d in gear.tip_diameter]
-    start = length - math.sqrt(tip[1] ** 2 - base[1] ** 2)
-    end = math.sqrt(tip[0] ** 2 - base[0] ** 2)
-    pitch = 2.0 * math.pi * base[0] / gear.teeth[0]
-    slope = math.tan(beta) * math.cos(alpha)
-    lean, ratio = math.cos(math.atan(slope)), gear.teeth[1] / gear.teeth[0]
+    mesh, ratio = lines_of(gear, *steps), gear.teeth[1] / gear.teeth[0]
+    length, lean, width = mesh.length * 1e-3, mesh.lean, gear.face_width * 1e-3
     total = 0.0
-    for phase in range(phases):
-        places = []
-        for slice_ in range(slices):
-            x = start - width * slope - pitch + (phase + 0.5) / phases * pitch
-            x += (slice_ + 0.5) / slices * width * slope
-            while x < end:
-                x += pitch
-                if start < x < end:
-                    places.append(x)
-        force = torque / base[0] / lean / len(places)
-        line = force * lean / (width / slices)
-        for x in places:
+    for places in mesh.places:
+        force = torque / (mesh.base * 1e-3) / lean / len(places)
+        line = force * lean / (width / steps[1])
+        for x in (place * 1e-3 for place in places):
             other = length - x
             radius = x * other / length / lean
             pressure = math.sqrt(line * MODULUS / (2.0 * math.pi * radius)) * 1e-6
             both = (x + other / ratio) * omega
             slip = abs(x - other / ratio) * omega
             friction = local_friction(law, both, pressure, nu, ra, 2.0 * slip / both, radius * 1e3)
-            total += friction * slip * force / phases
+            total += friction * slip * force / steps[0]
     return total
 
 

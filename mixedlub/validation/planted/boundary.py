@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -103,98 +104,35 @@ def tribofilm_under_stress(c: Contact, strength: float, pace: float, energy: flo
     return replace(c, boundary_friction=c.boundary_friction * (1 + 0.3 * strength * grown))
 
 
+LAYER = partial(Form, "boundary_film_temperature", "boundary")
+SPEED = partial(Form, "boundary_speed_dependence", "boundary")
+GROWTH = partial(Form, "tribofilm_growth", "boundary", rarity=0.6)
 EFFECTS = (
-    Form(
-        "boundary_film_temperature",
-        "boundary",
-        boundary_film_temperature,
-        (
-            strength(0.0, 1.8, (0.6, 1.3)),
-            Knob("activation", 40.0, 130.0, (65.0, 95.0)),
-            Knob("flash_share", 0.0, 1.0, (0.0, 0.5)),
-        ),
-        "normal-cumulative activation on contact temperature",
-    ),
-    Form(
-        "boundary_film_temperature",
-        "boundary",
-        boundary_film_desorbed,
-        (
-            strength(-1.8, 4.0, (0.6, 1.3)),
-            Knob("energy", 20.0, 150.0, (40.0, 100.0)),
-            Knob("half", 40.0, 130.0, (65.0, 95.0)),
-        ),
-        "Langmuir 1918, desorption in heat",
-        within=True,
-        holds="unlike a logistic curve at four temperatures or more",
-    ),
-    Form(
-        "boundary_film_temperature",
-        "boundary",
-        boundary_film_defect,
-        (
-            strength(0.0, 4.0, (0.6, 1.3)),
-            Knob("energy", 15.0, 100.0, (25.0, 50.0)),
-            Knob("balance", 30.0, 150.0, (50.0, 100.0)),
-        ),
-        "Kingsbury 1958, fractional film defect",
-    ),
-    Form(
-        "boundary_speed_dependence",
-        "boundary",
-        boundary_speed_dependence,
-        (strength(-4.0, 4.0, (0.8, 1.8)),),
-        "power law in sliding speed",
-        within=True,
-    ),
-    Form(
-        "boundary_speed_dependence",
-        "boundary",
-        boundary_speed_logarithm,
-        (strength(-4.0, 4.0, (0.8, 1.8)),),
-        "Briscoe and Evans 1982",
-    ),
-    Form(
-        "boundary_speed_dependence",
-        "boundary",
-        boundary_speed_eyring,
-        (strength(-4.0, 4.0, (0.8, 1.8)), Knob("speed", 0.01, 2.0, (0.03, 0.5))),
-        "Eyring 1936, asinh of speed",
-    ),
-    Form(
-        "boundary_speed_dependence",
-        "boundary",
-        boundary_speed_exponential,
-        (strength(-4.0, 4.0, (0.8, 1.8)), Knob("speed", 0.03, 3.0, (0.1, 1.0))),
-        "Bo and Pavelescu 1982",
-    ),
-    Form(
-        "tribofilm_growth",
-        "boundary",
-        tribofilm_growth,
-        (strength(-2.5, 4.0, (0.6, 1.5)), Knob("pace", 0.05, 2.0, (0.1, 0.6))),
-        "diffusion-limited (parabolic) growth",
-        rarity=0.6,
-    ),
-    Form(
-        "tribofilm_growth",
-        "boundary",
-        tribofilm_of_first_order,
-        (strength(-2.5, 4.0, (0.6, 1.5)), Knob("pace", 0.05, 2.0, (0.1, 0.6))),
-        "coverage of first order, Fujita and Spikes 2005",
-        rarity=0.6,
-        within=True,
-    ),
-    Form(
-        "tribofilm_growth",
-        "boundary",
-        tribofilm_under_stress,
-        (
-            strength(-2.5, 4.0, (0.6, 1.5)),
-            Knob("pace", 0.05, 2.0, (0.1, 0.6)),
-            Knob("energy", 10.0, 120.0, (30.0, 80.0)),
-        ),
-        "stress-promoted Arrhenius growth, Gosvami 2015, Zhang and Spikes 2016",
-        rarity=0.6,
-    ),
-)
+    LAYER(boundary_film_temperature,
+          (strength(0.0, 1.8, (0.6, 1.3)), Knob("activation", 40.0, 130.0, (65.0, 95.0)),
+           Knob("flash_share", 0.0, 1.0, (0.0, 0.5))),
+          "normal-cumulative activation on contact temperature"),
+    LAYER(boundary_film_desorbed,
+          (strength(-1.8, 4.0, (0.6, 1.3)), Knob("energy", 20.0, 150.0, (40.0, 100.0)),
+           Knob("half", 40.0, 130.0, (65.0, 95.0))),
+          "Langmuir 1918, desorption in heat", within=True,
+          holds="unlike a logistic curve at four temperatures or more"),
+    LAYER(boundary_film_defect,
+          (strength(0.0, 4.0, (0.6, 1.3)), Knob("energy", 15.0, 100.0, (25.0, 50.0)),
+           Knob("balance", 30.0, 150.0, (50.0, 100.0))),
+          "Kingsbury 1958, fractional film defect"),
+    SPEED(boundary_speed_dependence, (strength(-4.0, 4.0, (0.8, 1.8)),), "power law in sliding speed", within=True),
+    SPEED(boundary_speed_logarithm, (strength(-4.0, 4.0, (0.8, 1.8)),), "Briscoe and Evans 1982"),
+    SPEED(boundary_speed_eyring, (strength(-4.0, 4.0, (0.8, 1.8)), Knob("speed", 0.01, 2.0, (0.03, 0.5))),
+          "Eyring 1936, asinh of speed"),
+    SPEED(boundary_speed_exponential, (strength(-4.0, 4.0, (0.8, 1.8)), Knob("speed", 0.03, 3.0, (0.1, 1.0))),
+          "Bo and Pavelescu 1982"),
+    GROWTH(tribofilm_growth, (strength(-2.5, 4.0, (0.6, 1.5)), Knob("pace", 0.05, 2.0, (0.1, 0.6))),
+           "diffusion-limited (parabolic) growth"),
+    GROWTH(tribofilm_of_first_order, (strength(-2.5, 4.0, (0.6, 1.5)), Knob("pace", 0.05, 2.0, (0.1, 0.6))),
+           "coverage of first order, Fujita and Spikes 2005", within=True),
+    GROWTH(tribofilm_under_stress,
+           (strength(-2.5, 4.0, (0.6, 1.5)), Knob("pace", 0.05, 2.0, (0.1, 0.6)),
+            Knob("energy", 10.0, 120.0, (30.0, 80.0))),
+           "stress-promoted Arrhenius growth, Gosvami 2015, Zhang and Spikes 2016"),
+)  # fmt: skip

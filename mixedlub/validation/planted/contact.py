@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 from scipy.special import ndtr
@@ -293,38 +293,34 @@ def surface_ridges(c: Contact, strength: float, height: float) -> Contact:
     return replace(c, area=touching + (1 - touching) * c.area)
 
 
+SKEWED = partial(Form, "skewed_heights", "contact")
+PLASTIC = partial(Form, "asperity_plasticity", "contact")
+MICRO = partial(Form, "micro_ehl", "surface")
+RUN_IN = partial(Form, "running_in", "surface")
+DEFECTS = partial(Form, "surface_defects", "contact", rarity=0.6)
 EFFECTS = (
-    Form("skewed_heights", "contact", skewed_heights, (strength(-0.9, 0.94, (0.5, 0.9)),),
-         "skew-normal heights (Azzalini 1985)"),
-    Form("skewed_heights", "contact", skewed_as_weibull, (strength(-0.9, 0.9, (0.5, 0.9)),),
-         "Weibull heights (McCool 2000)"),
-    Form("skewed_heights", "contact", skewed_by_two_processes, (strength(0.0, 0.95, (0.5, 0.9)),),
-         "plateau on a rough cut (Leefe 1998, ISO 13565-3)"),
-    Form("asperity_plasticity", "contact", asperity_plasticity, (strength(0.0, 12.0, (0.6, 1.6)),),
-         "Chang, Etsion and Bogy 1987", within=True),
-    Form("asperity_plasticity", "contact", asperity_elastoplasticity, (strength(0.0, 20.0, (1.5, 4.0)),),
-         "Zhao, Maietta and Chang 2000"),
-    Form("asperity_plasticity", "contact", yielding_spheres, (strength(0.0, 20.0, (1.0, 4.0)),),
-         "Kogut and Etsion 2002"),
-    Form("asperity_plasticity", "contact", yielding_with_hardness, (strength(0.0, 20.0, (1.0, 4.0)),),
-         "Jackson and Green 2005", holds="x up to 110"),
-    Form("micro_ehl", "surface", micro_ehl, (strength(0.0, 12.0, (0.8, 3.0)),),
-         "amplitude reduction of Venner and Lubrecht 1994, slopes apart", holds="waves up to half b"),
-    Form("micro_ehl", "surface", micro_ehl_of_one_wave, (strength(0.0, 12.0, (0.8, 3.0)),),
-         "Venner and Lubrecht 1994, one wave", within=True, holds="waves up to half b"),
-    Form("micro_ehl", "surface", micro_ehl_of_spectrum, (strength(0.0, 12.0, (0.8, 3.0)),),
-         "Venner and Lubrecht 1994, wave by wave"),
-    Form("running_in", "surface", running_in, (strength(0.0, 3.0, (0.6, 1.3)),
-         Knob("pace", 0.02, 1.0, (0.03, 0.3))), "logarithmic wear-in"),
-    Form("running_in", "surface", running_in_exponentially, (strength(0.0, 3.0, (0.6, 1.3)),
-         Knob("pace", 0.02, 1.0, (0.03, 0.3))), "exponential approach, Kragelsky 1982"),
-    Form("running_in", "surface", running_in_and_wear, (strength(0.0, 3.0, (0.6, 1.3)),
-         Knob("pace", 0.02, 0.5, (0.03, 0.2)), Knob("steady", 0.0, 1.0, (0.2, 0.6))),
-         "Queener, Smith and Mitchell 1965"),
-    Form("surface_defects", "contact", surface_defects, (strength(0.0, 20.0, (0.8, 2.5)),), "constant raised area",
-         rarity=0.6, within=True),
-    Form("surface_defects", "contact", surface_burrs, (strength(0.0, 20.0, (0.8, 2.5)),
-         Knob("height", 0.3, 10.0, (0.6, 3.0))), "exponential heights of Greenwood and Williamson 1966", rarity=0.6),
-    Form("surface_defects", "contact", surface_ridges, (strength(0.0, 20.0, (0.8, 2.5)),
-         Knob("height", 0.3, 10.0, (0.6, 3.0))), "ridges of normal heights", rarity=0.6),
+    SKEWED(skewed_heights, (strength(-0.9, 0.94, (0.5, 0.9)),), "skew-normal heights (Azzalini 1985)"),
+    SKEWED(skewed_as_weibull, (strength(-0.9, 0.9, (0.5, 0.9)),), "Weibull heights (McCool 2000)"),
+    SKEWED(skewed_by_two_processes, (strength(0.0, 0.95, (0.5, 0.9)),),
+           "plateau on a rough cut (Leefe 1998, ISO 13565-3)"),
+    PLASTIC(asperity_plasticity, (strength(0.0, 12.0, (0.6, 1.6)),), "Chang, Etsion and Bogy 1987", within=True),
+    PLASTIC(asperity_elastoplasticity, (strength(0.0, 20.0, (1.5, 4.0)),), "Zhao, Maietta and Chang 2000"),
+    PLASTIC(yielding_spheres, (strength(0.0, 20.0, (1.0, 4.0)),), "Kogut and Etsion 2002"),
+    PLASTIC(yielding_with_hardness, (strength(0.0, 20.0, (1.0, 4.0)),), "Jackson and Green 2005", holds="x up to 110"),
+    MICRO(micro_ehl, (strength(0.0, 12.0, (0.8, 3.0)),),
+          "amplitude reduction of Venner and Lubrecht 1994, slopes apart", holds="waves up to half b"),
+    MICRO(micro_ehl_of_one_wave, (strength(0.0, 12.0, (0.8, 3.0)),), "Venner and Lubrecht 1994, one wave", within=True,
+          holds="waves up to half b"),
+    MICRO(micro_ehl_of_spectrum, (strength(0.0, 12.0, (0.8, 3.0)),), "Venner and Lubrecht 1994, wave by wave"),
+    RUN_IN(running_in, (strength(0.0, 3.0, (0.6, 1.3)), Knob("pace", 0.02, 1.0, (0.03, 0.3))), "logarithmic wear-in"),
+    RUN_IN(running_in_exponentially, (strength(0.0, 3.0, (0.6, 1.3)), Knob("pace", 0.02, 1.0, (0.03, 0.3))),
+           "exponential approach, Kragelsky 1982"),
+    RUN_IN(running_in_and_wear,
+           (strength(0.0, 3.0, (0.6, 1.3)), Knob("pace", 0.02, 0.5, (0.03, 0.2)), Knob("steady", 0.0, 1.0, (0.2, 0.6))),
+           "Queener, Smith and Mitchell 1965"),
+    DEFECTS(surface_defects, (strength(0.0, 20.0, (0.8, 2.5)),), "constant raised area", within=True),
+    DEFECTS(surface_burrs, (strength(0.0, 20.0, (0.8, 2.5)), Knob("height", 0.3, 10.0, (0.6, 3.0))),
+            "exponential heights of Greenwood and Williamson 1966"),
+    DEFECTS(surface_ridges, (strength(0.0, 20.0, (0.8, 2.5)), Knob("height", 0.3, 10.0, (0.6, 3.0))),
+            "ridges of normal heights"),
 )  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -160,38 +161,32 @@ def lay_by_perturbation(c: Contact, strength: float) -> Contact:
 
 
 _LIMITED = strength(0.0, 60.0, (0.5, 3.0))
+HEATED = partial(Form, "inlet_shear_heating", "film")
+STARVED = partial(Form, "starvation", "film")
+THINNED = partial(Form, "inlet_shear_thinning", "film")
+LAY = partial(Form, "roughness_lay", "film")
 EFFECTS = (
-    Form("inlet_shear_heating", "film", inlet_shear_heating, (strength(0.0, 12.0),), "Murch and Wilson 1975"),
-    Form("inlet_shear_heating", "film", heated_by_hsu_lee, (strength(0.0, 12.0),), "Hsu and Lee 1994"),
-    Form("inlet_shear_heating", "film", heated_under_pressure, (strength(0.0, 8.0),), "Zhu and Cheng 1989",
-         holds="L up to 300"),
-    Form("inlet_shear_heating", "film", heated_at_rolling_sum, (strength(0.0, 6.0, (0.2, 0.8)),),
-         "Wilson and Sheu 1983"),
-    Form("starvation", "film", starvation, (strength(0.0, 30.0, (0.7, 2.5)), Knob("steepness", 0.25, 0.9, (0.35, 0.8))),
-         "Cann, Damiens and Lubrecht 2004, replenishment group", within=True),
-    Form("starvation", "film", starved_in_wide_contacts,
-         (strength(0.0, 60.0, (0.7, 2.5)), Knob("steepness", 0.25, 0.9, (0.35, 0.8))),
-         "Cann, Damiens and Lubrecht 2004, degree of starvation"),
-    Form("starvation", "film", starved_by_meniscus,
-         (strength(0.0, 12.0, (0.8, 2.0)), Knob("distance", 0.05, 3.0, (0.3, 1.5))), "Hamrock and Dowson 1977",
-         holds="meniscus nearer than m*"),
-    Form("starvation", "film", starved_by_layer,
-         (strength(0.0, 60.0, (0.7, 3.0)), Knob("sharpness", 1.5, 6.0, (2.0, 5.0))), "Chevalier et al. 1998",
-         holds="g 2 to 5"),
-    Form("inlet_shear_thinning", "film", inlet_shear_thinning,
-         (strength(0.0, 30.0, (0.7, 3.0)), Knob("plateau", 0.3, 0.85, (0.45, 0.75))),
-         "Cross with a second Newtonian plateau"),
-    Form("inlet_shear_thinning", "film", thinned_by_carreau, (_LIMITED, Knob("index", 0.4, 0.95, (0.6, 0.85))),
-         "Carreau 1972"),
-    Form("inlet_shear_thinning", "film", thinned_by_eyring, (strength(0.0, 60.0, (0.5, 2.0)),), "Eyring 1936"),
-    Form("inlet_shear_thinning", "film", thinned_by_bair, (_LIMITED, Knob("index", 0.6, 0.95, (0.65, 0.9))),
-         "Bair 2005", within=True, holds="n above 0.6, N up to 30"),
-    Form("roughness_lay", "film", roughness_lay, (strength(-0.9, 3.0, (0.5, 1.5)),),
-         "saturating lay factor after Zhu and Cheng 1988"),
-    Form("roughness_lay", "film", lay_of_flow_factors, (strength(-4.0, 0.98, (0.3, 0.8)),), "Patir and Cheng 1978",
-         holds="H above 1"),
-    Form("roughness_lay", "film", lay_by_perturbation, (strength(-2.0, 2.0, (0.1, 0.5)),), "Tripp 1983", within=True,
-         holds="H above 3"),
+    HEATED(inlet_shear_heating, (strength(0.0, 12.0),), "Murch and Wilson 1975"),
+    HEATED(heated_by_hsu_lee, (strength(0.0, 12.0),), "Hsu and Lee 1994"),
+    HEATED(heated_under_pressure, (strength(0.0, 8.0),), "Zhu and Cheng 1989", holds="L up to 300"),
+    HEATED(heated_at_rolling_sum, (strength(0.0, 6.0, (0.2, 0.8)),), "Wilson and Sheu 1983"),
+    STARVED(starvation, (strength(0.0, 30.0, (0.7, 2.5)), Knob("steepness", 0.25, 0.9, (0.35, 0.8))),
+            "Cann, Damiens and Lubrecht 2004, replenishment group", within=True),
+    STARVED(starved_in_wide_contacts, (strength(0.0, 60.0, (0.7, 2.5)), Knob("steepness", 0.25, 0.9, (0.35, 0.8))),
+            "Cann, Damiens and Lubrecht 2004, degree of starvation"),
+    STARVED(starved_by_meniscus, (strength(0.0, 12.0, (0.8, 2.0)), Knob("distance", 0.05, 3.0, (0.3, 1.5))),
+            "Hamrock and Dowson 1977", holds="meniscus nearer than m*"),
+    STARVED(starved_by_layer, (strength(0.0, 60.0, (0.7, 3.0)), Knob("sharpness", 1.5, 6.0, (2.0, 5.0))),
+            "Chevalier et al. 1998", holds="g 2 to 5"),
+    THINNED(inlet_shear_thinning, (strength(0.0, 30.0, (0.7, 3.0)), Knob("plateau", 0.3, 0.85, (0.45, 0.75))),
+            "Cross with a second Newtonian plateau"),
+    THINNED(thinned_by_carreau, (_LIMITED, Knob("index", 0.4, 0.95, (0.6, 0.85))), "Carreau 1972"),
+    THINNED(thinned_by_eyring, (strength(0.0, 60.0, (0.5, 2.0)),), "Eyring 1936"),
+    THINNED(thinned_by_bair, (_LIMITED, Knob("index", 0.6, 0.95, (0.65, 0.9))), "Bair 2005", within=True,
+            holds="n above 0.6, N up to 30"),
+    LAY(roughness_lay, (strength(-0.9, 3.0, (0.5, 1.5)),), "saturating lay factor after Zhu and Cheng 1988"),
+    LAY(lay_of_flow_factors, (strength(-4.0, 0.98, (0.3, 0.8)),), "Patir and Cheng 1978", holds="H above 1"),
+    LAY(lay_by_perturbation, (strength(-2.0, 2.0, (0.1, 0.5)),), "Tripp 1983", within=True, holds="H above 3"),
 )  # fmt: skip
 
 OF_HISTORIES = tuple(form for form in EFFECTS if form.id != "roughness_lay")

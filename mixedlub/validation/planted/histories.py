@@ -90,13 +90,12 @@ def _growths(time: np.ndarray) -> tuple[Form, ...]:
 
     steep = Knob("exponent", 1.2, 4.0, (1.6, 3.0))
     return (
-        Form("tribofilm_growth", "boundary", first_order,
-             (EITHER, Knob("pace", 0.05, 2.0, (0.1, 0.6))), "coverage of first order, Fujita and Spikes 2005",
-             within=True),
+        Form("tribofilm_growth", "boundary", first_order, (EITHER, Knob("pace", 0.05, 2.0, (0.1, 0.6))),
+             "coverage of first order, Fujita and Spikes 2005", within=True),
         Form("tribofilm_growth", "boundary", logistic,
              (EITHER, Knob("middle", 0.05, 0.8, (0.15, 0.5)), Knob("width", 0.1, 0.5, (0.15, 0.35))), "autocatalytic"),
-        Form("tribofilm_growth", "boundary", avrami,
-             (EITHER, Knob("pace", 0.05, 1.0, (0.15, 0.5)), steep), "Avrami 1939", within=True),
+        Form("tribofilm_growth", "boundary", avrami, (EITHER, Knob("pace", 0.05, 1.0, (0.15, 0.5)), steep),
+             "Avrami 1939", within=True),
         Form("tribofilm_growth", "boundary", parabolic, (EITHER, Knob("pace", 0.05, 2.0, (0.1, 0.6))), "diffusion"),
     )  # fmt: skip
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -100,69 +101,22 @@ def _relieved(c: Contact, strength: float, power: float) -> Contact:
     return _forced(c, whole * moved)
 
 
+DYNAMIC = partial(Form, "dynamic_load", "load", rarity=0.5)
+RELIEF = partial(Form, "tip_relief", "load", rarity=0.5)
 EFFECTS = (
-    Form(
-        "dynamic_load",
-        "load",
-        dynamic_load,
-        (strength(0.0, 5.0, (0.7, 1.6)), Knob("resonance_rpm", 600.0, 6000.0, (1200.0, 3000.0))),
-        "one-degree-of-freedom mesh resonance",
-        rarity=0.5,
-        within=True,
-    ),
-    Form(
-        "dynamic_load",
-        "load",
-        dynamic_load_of_two_orders,
-        (
-            strength(0.0, 5.0, (0.7, 1.6)),
-            Knob("resonance_rpm", 600.0, 6000.0, (1200.0, 4000.0)),
-            Knob("second", 0.0, 1.0, (0.3, 0.7)),
-        ),
-        "two orders of the transmission error, Ozguven and Houser 1988",
-        rarity=0.5,
-        within=True,
-    ),
-    Form(
-        "dynamic_load",
-        "load",
-        dynamic_load_of_quality,
-        (strength(0.0, 5.0, (0.5, 1.5)), Knob("quality", 5.0, 11.0, (6.0, 10.0))),
-        "dynamic factor of AGMA 2001",
-        rarity=0.5,
-        holds="v up to (A + Q - 3)^2/200",
-    ),
-    Form(
-        "dynamic_load",
-        "load",
-        dynamic_load_of_errors,
-        (strength(0.0, 10.0, (0.7, 1.6)), Knob("fixed", 0.0, 1.0, (0.3, 0.8))),
-        "dynamic factor of ISO 6336-1, method C",
-        rarity=0.5,
-        holds="below resonance",
-    ),
-    Form(
-        "misalignment",
-        "load",
-        misalignment,
-        (strength(0.0, 8.0, (0.7, 2.0)),),
-        "partial face contact closing with torque",
-        rarity=0.5,
-    ),
-    Form(
-        "tip_relief",
-        "load",
-        tip_relief,
-        (strength(0.0, 3.0, (0.4, 1.2)),),
-        "parabolic relief, load handed to the neighbour pair",
-        rarity=0.5,
-    ),
-    Form(
-        "tip_relief",
-        "load",
-        tip_relief_of_straight_flanks,
-        (strength(0.0, 3.0, (0.4, 1.2)),),
-        "linear relief, load handed to the neighbour pair",
-        rarity=0.5,
-    ),
-)
+    DYNAMIC(dynamic_load, (strength(0.0, 5.0, (0.7, 1.6)), Knob("resonance_rpm", 600.0, 6000.0, (1200.0, 3000.0))),
+            "one-degree-of-freedom mesh resonance", within=True),
+    DYNAMIC(dynamic_load_of_two_orders,
+            (strength(0.0, 5.0, (0.7, 1.6)), Knob("resonance_rpm", 600.0, 6000.0, (1200.0, 4000.0)),
+             Knob("second", 0.0, 1.0, (0.3, 0.7))),
+            "two orders of the transmission error, Ozguven and Houser 1988", within=True),
+    DYNAMIC(dynamic_load_of_quality, (strength(0.0, 5.0, (0.5, 1.5)), Knob("quality", 5.0, 11.0, (6.0, 10.0))),
+            "dynamic factor of AGMA 2001", holds="v up to (A + Q - 3)^2/200"),
+    DYNAMIC(dynamic_load_of_errors, (strength(0.0, 10.0, (0.7, 1.6)), Knob("fixed", 0.0, 1.0, (0.3, 0.8))),
+            "dynamic factor of ISO 6336-1, method C", holds="below resonance"),
+    Form("misalignment", "load", misalignment, (strength(0.0, 8.0, (0.7, 2.0)),),
+         "partial face contact closing with torque", rarity=0.5),
+    RELIEF(tip_relief, (strength(0.0, 3.0, (0.4, 1.2)),), "parabolic relief, load handed to the neighbour pair"),
+    RELIEF(tip_relief_of_straight_flanks, (strength(0.0, 3.0, (0.4, 1.2)),),
+           "linear relief, load handed to the neighbour pair"),
+)  # fmt: skip

@@ -238,14 +238,7 @@ def bearing_drag(c: Contact, strength: float, sliding_share: float) -> Contact:
 
     F the tooth force; mean diameter 50 mm; ``sliding_share``: moment at 150 Nm over rolling at 1500 rpm and 15 mm2/s.
     """
-    n, nu, size = _rpm(c), _viscosity_mm2_s(c), 50.0
-    shear = 1 / (1 + 1.84e-9 * (n * size) ** 1.28 * nu**0.64)
-    starved = np.exp(-3e-8 * nu * n * 100 * np.sqrt(3.1 / (2 * 40.0)))
-    load = c.rig.conditions["torque_Nm"].astype(float) / 150
-    boundary = np.exp(-2.6e-8 * (n * nu) ** 1.4 * size)
-    sliding = (0.12 * boundary + 0.05 * (1 - boundary)) / 0.05
-    moment = shear * starved * load**0.54 * (n * nu / 22500) ** 0.6 + sliding_share * sliding * load ** (5 / 3)
-    return _added(c, strength * 0.08 * moment * n * np.pi / 30)
+    return _on_bearings(c, strength, sliding_share, 3.1, 0.05, (0.54, 5 / 3))
 
 
 def bearing_drag_of_rollers(c: Contact, strength: float, sliding_share: float) -> Contact:
@@ -253,13 +246,26 @@ def bearing_drag_of_rollers(c: Contact, strength: float, sliding_share: float) -
 
     Sliding friction is 0.02 in a full film; otherwise as for ball bearings.
     """
+    return _on_bearings(c, strength, sliding_share, 5.1, 0.02, (0.31, 1))
+
+
+def _on_bearings(
+    c: Contact,
+    strength: float,
+    sliding_share: float,
+    geometry: float,
+    film_friction: float,
+    powers: tuple[float, float],
+) -> Contact:
+    """Contact with the moments of SKF's model, rolling and sliding each with its power of the tooth force."""
     n, nu, size = _rpm(c), _viscosity_mm2_s(c), 50.0
     shear = 1 / (1 + 1.84e-9 * (n * size) ** 1.28 * nu**0.64)
-    starved = np.exp(-3e-8 * nu * n * 100 * np.sqrt(5.1 / (2 * 40.0)))
+    starved = np.exp(-3e-8 * nu * n * 100 * np.sqrt(geometry / (2 * 40.0)))
     load = c.rig.conditions["torque_Nm"].astype(float) / 150
     boundary = np.exp(-2.6e-8 * (n * nu) ** 1.4 * size)
-    sliding = (0.12 * boundary + 0.02 * (1 - boundary)) / 0.02
-    moment = shear * starved * load**0.31 * (n * nu / 22500) ** 0.6 + sliding_share * sliding * load
+    sliding = (0.12 * boundary + film_friction * (1 - boundary)) / film_friction
+    rolled = shear * starved * load ** powers[0] * (n * nu / 22500) ** 0.6
+    moment = rolled + sliding_share * sliding * load ** powers[1]
     return _added(c, strength * 0.08 * moment * n * np.pi / 30)
 
 

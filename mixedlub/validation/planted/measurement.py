@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -100,46 +101,24 @@ def torque_gain(c: Contact, strength: float) -> Contact:
     return replace(c, recorded=c.recorded + 1e-3 * strength * c.rig.conditions["torque_Nm"].astype(float) * turning)
 
 
+HEAT_LEAK = partial(Form, "heat_leak", "sensor")
+DRIFT = partial(Form, "sensor_drift", "sensor")
 EFFECTS = (
-    Form(
-        "heat_leak",
-        "sensor",
-        heat_leak,
-        (strength(0.0, 8.0), Knob("conductance", 0.0, 0.6, (0.02, 0.15))),
-        "calorimetric balance",
-        within=True,
-    ),
-    Form(
-        "heat_leak",
-        "sensor",
-        heat_leak_by_convection,
-        (strength(0.0, 8.0), Knob("conductance", 0.0, 0.6, (0.02, 0.15))),
-        "calorimetric balance, free convection after McAdams 1954",
-    ),
+    HEAT_LEAK(heat_leak, (strength(0.0, 8.0), Knob("conductance", 0.0, 0.6, (0.02, 0.15))), "calorimetric balance",
+              within=True),
+    HEAT_LEAK(heat_leak_by_convection, (strength(0.0, 8.0), Knob("conductance", 0.0, 0.6, (0.02, 0.15))),
+              "calorimetric balance, free convection after McAdams 1954"),
     Form("sensor_offset", "sensor", sensor_offset, (strength(-8.0, 8.0),), "instrument zero", within=True),
     Form("sensor_gain", "sensor", sensor_gain, (strength(-4.0, 6.0),), "instrument span", within=True),
-    Form("sensor_drift", "sensor", sensor_drift, (strength(-6.0, 8.0),), "instrument drift", within=True),
-    Form(
-        "sensor_drift",
-        "sensor",
-        sensor_warming,
-        (strength(-6.0, 8.0), Knob("pace", 0.7, 5.0, (1.0, 3.0))),
-        "warming amplifier",
-        within=True,
-    ),
-    Form(
-        "sensor_drift",
-        "sensor",
-        sensor_creep,
-        (strength(-6.0, 8.0), Knob("onset", 0.001, 0.2, (0.003, 0.05))),
-        "logarithmic creep of a load cell",
-    ),
-    Form("sensor_drift", "sensor", sensor_soaking, (strength(-6.0, 8.0),), "heat or moisture that diffuses in"),
-    Form(
-        "torque_offset", "sensor", torque_offset, (strength(-8.0, 8.0),), "torque meter zero", rarity=0.7, within=True
-    ),
+    DRIFT(sensor_drift, (strength(-6.0, 8.0),), "instrument drift", within=True),
+    DRIFT(sensor_warming, (strength(-6.0, 8.0), Knob("pace", 0.7, 5.0, (1.0, 3.0))), "warming amplifier", within=True),
+    DRIFT(sensor_creep, (strength(-6.0, 8.0), Knob("onset", 0.001, 0.2, (0.003, 0.05))),
+          "logarithmic creep of a load cell"),
+    DRIFT(sensor_soaking, (strength(-6.0, 8.0),), "heat or moisture that diffuses in"),
+    Form("torque_offset", "sensor", torque_offset, (strength(-8.0, 8.0),), "torque meter zero", rarity=0.7,
+         within=True),
     Form("torque_gain", "sensor", torque_gain, (strength(-5.0, 5.0),), "torque meter spans", rarity=0.7, within=True),
-)
+)  # fmt: skip
 
 
 def _usual(values: np.ndarray) -> float:

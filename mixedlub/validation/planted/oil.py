@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -82,46 +83,17 @@ def bulk_temperature_by_convection(c: Contact, strength: float) -> Contact:
     return _heated_by_mesh(c, lambda loss: strength * loss / (700 * np.sqrt(speed / 10) * area))
 
 
+AGEING = partial(Form, "viscosity_drift", "oil", rarity=0.6)
+TEETH = partial(Form, "bulk_temperature", "surface")
 EFFECTS = (
-    Form(
-        "pressure_viscosity_law",
-        "shear",
-        pressure_viscosity_law,
-        (strength(0.0, 1.5, (0.8, 1.1)), Knob("stiffening", 0.1, 1.2, (0.2, 0.7))),
-        "modulus equation (Bode 1989)",
-        rarity=0.6,
-    ),
-    Form(
-        "viscosity_drift",
-        "oil",
-        viscosity_drift,
-        (strength(-4.0, 4.0, (0.7, 1.8)),),
-        "accelerating oxidation",
-        rarity=0.6,
-    ),
-    Form(
-        "viscosity_drift",
-        "oil",
-        viscosity_sheared_down,
-        (strength(0.0, 4.0, (0.7, 1.8)), Knob("pace", 0.05, 2.0, (0.1, 0.6))),
-        "permanent shear loss of polymers",
-        rarity=0.6,
-    ),
-    Form(
-        "viscosity_drift",
-        "oil",
-        viscosity_diluted,
-        (strength(-4.0, 4.0, (0.7, 1.8)),),
-        "dilution by Arrhenius' law of mixtures 1887",
-        rarity=0.6,
-        within=True,
-    ),
-    Form("bulk_temperature", "surface", bulk_temperature, (strength(0.0, 3.0),), "ISO/TR 15144-1"),
-    Form(
-        "bulk_temperature",
-        "surface",
-        bulk_temperature_by_convection,
-        (strength(0.0, 3.0),),
-        "heat balance of a mesh cooled by convection",
-    ),
-)
+    Form("pressure_viscosity_law", "shear", pressure_viscosity_law,
+         (strength(0.0, 1.5, (0.8, 1.1)), Knob("stiffening", 0.1, 1.2, (0.2, 0.7))), "modulus equation (Bode 1989)",
+         rarity=0.6),
+    AGEING(viscosity_drift, (strength(-4.0, 4.0, (0.7, 1.8)),), "accelerating oxidation"),
+    AGEING(viscosity_sheared_down, (strength(0.0, 4.0, (0.7, 1.8)), Knob("pace", 0.05, 2.0, (0.1, 0.6))),
+           "permanent shear loss of polymers"),
+    AGEING(viscosity_diluted, (strength(-4.0, 4.0, (0.7, 1.8)),), "dilution by Arrhenius' law of mixtures 1887",
+           within=True),
+    TEETH(bulk_temperature, (strength(0.0, 3.0),), "ISO/TR 15144-1"),
+    TEETH(bulk_temperature_by_convection, (strength(0.0, 3.0),), "heat balance of a mesh cooled by convection"),
+)  # fmt: skip

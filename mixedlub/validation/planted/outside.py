@@ -87,25 +87,15 @@ def _outside(name: str, hook: str, law: Any, *knobs: Knob, rarity: float = 1.0) 
 
 
 EFFECTS = (
-    _outside(
-        "speed_band",
-        "friction",
-        speed_band,
-        Knob("centre", 0.2, 0.9, (0.35, 0.8)),
-        Knob("width", 0.05, 0.2, (0.06, 0.15)),
-    ),
+    _outside("speed_band", "friction", speed_band, Knob("centre", 0.2, 0.9, (0.35, 0.8)),
+             Knob("width", 0.05, 0.2, (0.06, 0.15))),
     _outside("pair_chemistry", "boundary", pair_chemistry, Knob("place", 0.0, 1.0, (0.5, 1.0))),
     _outside("load_threshold", "friction", load_threshold, Knob("centre", 0.3, 0.9, (0.5, 0.85))),
     _outside("hot_cavitation", "film", hot_cavitation, Knob("onset", 50.0, 100.0, (65.0, 85.0))),
-    _outside(
-        "odd_slip_power",
-        "friction",
-        odd_slip_power,
-        Knob("exponent", 1.5, 3.5, (2.0, 3.0)),
-    ),
+    _outside("odd_slip_power", "friction", odd_slip_power, Knob("exponent", 1.5, 3.5, (2.0, 3.0))),
     _outside("speed_ripple", "friction", speed_ripple, Knob("waves", 0.8, 2.0, (1.0, 1.6))),
     _outside("square_law_brake", "loss", square_law_brake),
     _outside("cold_light_drag", "friction", cold_light_drag, rarity=0.7),
     _outside("slow_excess", "friction", slow_excess, rarity=0.7),
-)
+)  # fmt: skip
 MIMICS = frozenset({"cold_light_drag", "slow_excess"})

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -159,66 +160,24 @@ def contact_creep_carter(c: Contact, strength: float) -> Contact:
     return replace(c, stress=c.stress * (1 - sticking**2))
 
 
+HEATING = partial(Form, "film_heating", "shear")
+LIMIT = partial(Form, "limiting_shear_stress", "shear")
+CREEP = partial(Form, "contact_creep", "shear", rarity=0.5)
 EFFECTS = (
-    Form("film_heating", "shear", film_heating, (strength(0.0, 4.0, (0.5, 1.2)),), "Crook 1961, Archard 1959"),
-    Form("film_heating", "shear", film_heated_alone, (strength(0.0, 12.0, (0.5, 2.0)),), "Archard 1959, film alone"),
-    Form("film_heating", "shear", walls_heated_alone, (strength(0.0, 6.0, (0.5, 1.5)),), "Blok 1937, walls alone"),
-    Form("film_heating", "shear", film_heated_in_layers, (strength(0.0, 20.0, (0.7, 3.0)),), "Nahme 1940, Crook 1961"),
-    Form(
-        "limiting_shear_stress",
-        "shear",
-        limiting_shear_stress,
-        (strength(0.0, 3.0, (0.6, 1.3)),),
-        "Bair and Winer 1979",
-    ),
-    Form(
-        "limiting_shear_stress",
-        "shear",
-        limiting_stress_in_hot_oil,
-        (strength(0.0, 3.0, (0.6, 1.3)), Knob("fall", 0.0, 0.006, (0.002, 0.006))),
-        "Gecim and Winer 1980, falling with temperature",
-        holds="-20 to 150 C",
-    ),
-    Form(
-        "limiting_shear_stress",
-        "shear",
-        limiting_stress_cut,
-        (strength(0.0, 3.0, (1.6, 2.8)),),
-        "cut off at the limit, Evans and Johnson 1986",
-        within=True,
-    ),
-    Form(
-        "limiting_shear_stress",
-        "shear",
-        limiting_stress_with_offset,
-        (strength(0.0, 3.0, (0.6, 1.3)), Knob("offset", 0.0, 1.0, (0.1, 0.45))),
-        "Johnson and Tevaarwerk 1977, tau_0 + gamma p",
-    ),
-    Form(
-        "coating_insulation",
-        "shear",
-        coating_insulation,
-        (strength(0.0, 6.0, (0.7, 1.5)),),
-        "series resistance with thermal lag",
-        rarity=0.6,
-    ),
-    Form(
-        "contact_creep",
-        "shear",
-        contact_creep,
-        (strength(0.0, 12.0, (1.0, 4.0)),),
-        "exponential creep law of rolling contact",
-        rarity=0.5,
-        within=True,
-    ),
-    Form("contact_creep", "shear", contact_creep_polach, (strength(0.0, 12.0, (1.0, 4.0)),), "Polach 2005", rarity=0.5),
-    Form(
-        "contact_creep",
-        "shear",
-        contact_creep_carter,
-        (strength(0.0, 12.0, (1.0, 4.0)),),
-        "Carter 1926",
-        rarity=0.5,
-        within=True,
-    ),
-)
+    HEATING(film_heating, (strength(0.0, 4.0, (0.5, 1.2)),), "Crook 1961, Archard 1959"),
+    HEATING(film_heated_alone, (strength(0.0, 12.0, (0.5, 2.0)),), "Archard 1959, film alone"),
+    HEATING(walls_heated_alone, (strength(0.0, 6.0, (0.5, 1.5)),), "Blok 1937, walls alone"),
+    HEATING(film_heated_in_layers, (strength(0.0, 20.0, (0.7, 3.0)),), "Nahme 1940, Crook 1961"),
+    LIMIT(limiting_shear_stress, (strength(0.0, 3.0, (0.6, 1.3)),), "Bair and Winer 1979"),
+    LIMIT(limiting_stress_in_hot_oil, (strength(0.0, 3.0, (0.6, 1.3)), Knob("fall", 0.0, 0.006, (0.002, 0.006))),
+          "Gecim and Winer 1980, falling with temperature", holds="-20 to 150 C"),
+    LIMIT(limiting_stress_cut, (strength(0.0, 3.0, (1.6, 2.8)),), "cut off at the limit, Evans and Johnson 1986",
+          within=True),
+    LIMIT(limiting_stress_with_offset, (strength(0.0, 3.0, (0.6, 1.3)), Knob("offset", 0.0, 1.0, (0.1, 0.45))),
+          "Johnson and Tevaarwerk 1977, tau_0 + gamma p"),
+    Form("coating_insulation", "shear", coating_insulation, (strength(0.0, 6.0, (0.7, 1.5)),),
+         "series resistance with thermal lag", rarity=0.6),
+    CREEP(contact_creep, (strength(0.0, 12.0, (1.0, 4.0)),), "exponential creep law of rolling contact", within=True),
+    CREEP(contact_creep_polach, (strength(0.0, 12.0, (1.0, 4.0)),), "Polach 2005"),
+    CREEP(contact_creep_carter, (strength(0.0, 12.0, (1.0, 4.0)),), "Carter 1926", within=True),
+)  # fmt: skip

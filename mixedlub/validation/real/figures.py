@@ -14,7 +14,7 @@ from mixedlub.validation.measures import ANSWERS_WITHOUT_EFFECT
 from mixedlub.validation.planted import MEASUREMENT
 from mixedlub.validation.real.deal import HIDDEN, PAIRED, PLANTED, UNTOUCHED
 from mixedlub.validation.rig import LAWS
-from mixedlub.validation.score import Figure, at_least, at_most
+from mixedlub.validation.score import Figure, any_case, at_least, at_most, share
 
 CLAIM = 0.9
 """Least probability of a confident claim."""
@@ -181,38 +181,24 @@ def _has_effect(truth: Truth, found: Located) -> bool:
     return bool(found.answer.verdict - ANSWERS_WITHOUT_EFFECT)
 
 
-def _any(truth: Truth, found: Located) -> bool:
-    return True
-
-
-def _share(
-    key: str,
-    text: str,
-    counts: Callable[[Truth, Located], bool],
-    measure: Callable[[Truth, Located], bool],
-    goal: tuple[float, float] | None = None,
-) -> Figure[Truth, Located]:
-    return Figure(key, text, counts, measure, goal, "share")
-
-
 FIGURES: tuple[Figure[Truth, Located], ...] = (
-    _share("planted", "planted effects named or tied, if identifiable", _of(PLANTED, identifiable=True, named=True),
-           named, at_least(0.85)),
-    _share("planted_all", "  of all planted effects of the catalogue", _of(PLANTED, named=True), named),
-    _share("planted_clean", "  and nothing else invented", _of(PLANTED, identifiable=True, named=True), right),
-    _share("outside", "planted outside the catalogue: unknown", _of(PLANTED, named=False), right),
-    _share("hidden_located", "hidden channels located", lambda t, a: t.label == HIDDEN and bool(t.where), located,
-           at_least(0.8)),
-    _share("hidden_right", "hidden channels named or unknown", _of(HIDDEN, lost=True), right),
-    _share("nothing_lost", "hidden or paired with nothing lost: as before", _nothing_lost, right),
-    _share("hidden_false", "hidden channels with a false claim at 0.9", _of(HIDDEN), falsely_claimed, at_most(0.04)),
-    _share("paired", "known differences named or tied", _of(PAIRED, lost=True), right, at_least(0.75)),
-    _share("untouched", "nothing missing: none or tied with none", _nothing_acts, _none_or_tied, at_least(0.9)),
-    _share("documented", "documented causes named or tied", _something_acts, named),
-    _share("claims_false", "any case with a false claim at 0.9", _any, falsely_claimed),
-    _share("faults", "documented faults found as faults", lambda t, a: bool(t.faults), faults_found, at_least(0.85)),
-    _share("helps", "named effects that predict withheld readings", _has_effect, helps, at_least(1.0)),
-    Figure("coverage", "coverage of the 90 % intervals, withheld readings", _any, coverage, (0.85, 0.95), "mean"),
-    Figure("seconds", "seconds a case, median", _any, lambda t, a: a.answer.seconds, at_most(10.0), "median"),
-    Figure("slowest", "seconds a case, worst", _any, lambda t, a: a.answer.seconds, at_most(60.0), "max"),
+    share("planted", "planted effects named or tied, if identifiable", _of(PLANTED, identifiable=True, named=True),
+          named, at_least(0.85)),
+    share("planted_all", "  of all planted effects of the catalogue", _of(PLANTED, named=True), named),
+    share("planted_clean", "  and nothing else invented", _of(PLANTED, identifiable=True, named=True), right),
+    share("outside", "planted outside the catalogue: unknown", _of(PLANTED, named=False), right),
+    share("hidden_located", "hidden channels located", lambda t, a: t.label == HIDDEN and bool(t.where), located,
+          at_least(0.8)),
+    share("hidden_right", "hidden channels named or unknown", _of(HIDDEN, lost=True), right),
+    share("nothing_lost", "hidden or paired with nothing lost: as before", _nothing_lost, right),
+    share("hidden_false", "hidden channels with a false claim at 0.9", _of(HIDDEN), falsely_claimed, at_most(0.04)),
+    share("paired", "known differences named or tied", _of(PAIRED, lost=True), right, at_least(0.75)),
+    share("untouched", "nothing missing: none or tied with none", _nothing_acts, _none_or_tied, at_least(0.9)),
+    share("documented", "documented causes named or tied", _something_acts, named),
+    share("claims_false", "any case with a false claim at 0.9", any_case, falsely_claimed),
+    share("faults", "documented faults found as faults", lambda t, a: bool(t.faults), faults_found, at_least(0.85)),
+    share("helps", "named effects that predict withheld readings", _has_effect, helps, at_least(1.0)),
+    Figure("coverage", "coverage of the 90 % intervals, withheld readings", any_case, coverage, (0.85, 0.95), "mean"),
+    Figure("seconds", "seconds a case, median", any_case, lambda t, a: a.answer.seconds, at_most(10.0), "median"),
+    Figure("slowest", "seconds a case, worst", any_case, lambda t, a: a.answer.seconds, at_most(60.0), "max"),
 )  # fmt: skip

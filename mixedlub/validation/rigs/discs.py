@@ -8,20 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.validation.contact import (
-    PRIORS,
-    Inputs,
-    contact_model,
-    contact_theta,
-    friction_chain,
-    oil_of,
-    solid_of,
-    surfaces_of,
-)
+from mixedlub.validation.contact import Inputs, contact_model, friction_chain, oil_of, solid_of, surfaces_of
 from mixedlub.validation.rig import Case, Rig
-from mixedlub.validation.rigs.gears import COATED, forms_on
+from mixedlub.validation.rigs.gears import COATED, rig_on
 from mixedlub.validation.sample_rig import (
-    FLOOR,
     STEEL,
     UNCERTAINTY,
     draw_levels,
@@ -64,18 +54,7 @@ def inputs_of(case: Case) -> Inputs:
 
 def rig_of(case: Case) -> Rig:
     """Rig of the case."""
-    forms, outside = forms_on(case, NOT_HERE)
-    return Rig(
-        settings=case.settings,
-        columns=case.columns,
-        names=PRIORS,
-        model=contact_model(case.settings, cache(lambda: inputs_of(case)), FRICTION),
-        theta=contact_theta(case.settings),
-        forms=forms,
-        outside=outside,
-        floor=FLOOR,
-        signed=True,
-    )
+    return rig_on(case, contact_model(case.settings, cache(lambda: inputs_of(case)), FRICTION), NOT_HERE)
 
 
 def draw_case(rng: np.random.Generator, coated: bool) -> Case:

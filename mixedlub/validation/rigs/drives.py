@@ -107,29 +107,16 @@ def _speed_forms() -> tuple[Form, ...]:
     return (
         Form("stribeck", "running", gaussian, (rise, width), "Gaussian", within=True),
         Form("stribeck", "running", lorentzian, (rise, width), "Hess and Soom 1990"),
-        Form(
-            "stribeck",
-            "running",
-            bo_pavelescu,
-            (rise, width, Knob("exponent", 0.4, 3.0, (0.6, 2.0))),
-            "Bo, Pavelescu",
-            within=True,
-        ),
+        Form("stribeck", "running", bo_pavelescu, (rise, width, Knob("exponent", 0.4, 3.0, (0.6, 2.0))),
+             "Bo, Pavelescu", within=True),
         Form("stribeck", "running", makkar, (rise, width), "Makkar et al. 2005"),
-        Form(
-            "direction_dependence",
-            "parts",
-            unlike_flanks,
-            (strength(-6.0, 6.0), Knob("viscous", 0.6, 1.6, (0.8, 1.3))),
-            "two flanks",
-            within=True,
-        ),
-        Form(
-            "grease_shear_thinning", "parts", carreau_grease, (shear, Knob("index", 0.2, 0.9, (0.35, 0.75))), "Carreau"
-        ),
+        Form("direction_dependence", "parts", unlike_flanks,
+             (strength(-6.0, 6.0), Knob("viscous", 0.6, 1.6, (0.8, 1.3))), "two flanks", within=True),
+        Form("grease_shear_thinning", "parts", carreau_grease, (shear, Knob("index", 0.2, 0.9, (0.35, 0.75))),
+             "Carreau"),
         Form("grease_shear_thinning", "parts", cross_grease, (shear, Knob("power", 0.3, 0.95, (0.5, 0.85))), "Cross"),
         Form("grease_shear_thinning", "parts", eyring_grease, (shear,), "Eyring"),
-    )
+    )  # fmt: skip
 
 
 def _temperature_forms(celsius: np.ndarray) -> tuple[Form, ...]:

@@ -97,16 +97,10 @@ def _fringe_forms(spacer: float, period: float, onset: tuple[float, float], coun
 
     step = strength(-6.0, 6.0, (0.4, 1.2))
     forms = [
-        Form(
-            "fringe_order",
-            "sensor",
-            one_order,
-            (strength(-1.0, 2.0, (1.0, 1.0)), Knob("onset", 0.5 * onset[0], onset[1], onset)),
-            "one order miscounted",
-            rigid=True,
-            within=True,
-        )
-    ]
+        Form("fringe_order", "sensor", one_order,
+             (strength(-1.0, 2.0, (1.0, 1.0)), Knob("onset", 0.5 * onset[0], onset[1], onset)), "one order miscounted",
+             rigid=True, within=True),
+    ]  # fmt: skip
     if counted:
         forms.append(Form("fringe_step", "sensor", each_order, (step,), "even steps", within=True))
         forms.append(

@@ -8,7 +8,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -25,7 +25,7 @@ from mixedlub.validation.contact import (
     surfaces_of,
 )
 from mixedlub.validation.planted import FORMS, OUTSIDE
-from mixedlub.validation.rig import Case, Form, Rig
+from mixedlub.validation.rig import Case, Form, Model, Rig
 from mixedlub.validation.sample_rig import (
     FLOOR,
     STEEL,
@@ -263,23 +263,29 @@ def forms_on(case: Case, absent: tuple[str, ...]) -> tuple[tuple[Form, ...], tup
     return named, tuple(form for name, form in OUTSIDE.items() if name not in absent)
 
 
-def rig_of(case: Case) -> Rig:
-    """Rig of the case."""
-    inputs = lru_cache(maxsize=None)(lambda points: inputs_of(case, points))
-    forms, outside = forms_on(case, NOT_HERE)
+def rig_on(case: Case, model: Model, absent: tuple[str, ...], fine: Model | None = None) -> Rig:
+    """Rig of a case with its model, open to all effects but the absent."""
+    forms, outside = forms_on(case, absent)
     return Rig(
         settings=case.settings,
         columns=case.columns,
         share=case.share,
         names=PRIORS,
-        model=contact_model(case.settings, lambda: inputs(COARSE), POWER_LOSS),
-        fine=contact_model(case.settings, lambda: inputs(FINE), POWER_LOSS),
+        model=model,
+        fine=fine,
         theta=contact_theta(case.settings),
         forms=forms,
         outside=outside,
         floor=FLOOR,
         signed=True,
     )
+
+
+def rig_of(case: Case) -> Rig:
+    """Rig of the case."""
+    inputs = lru_cache(maxsize=None)(lambda points: inputs_of(case, points))
+    coarse, fine = (contact_model(case.settings, partial(inputs, points), POWER_LOSS) for points in (COARSE, FINE))
+    return rig_on(case, coarse, NOT_HERE, fine)
 
 
 def draw_case(rng: np.random.Generator, coated: bool, pairs_of_gears: Sequence[Mapping[str, Any]] = GEARS) -> Case:

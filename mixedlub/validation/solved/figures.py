@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from mixedlub.validation.answers import Answer, Truth
 from mixedlub.validation.measures import false_physics, right, tied, unknown_suspected
-from mixedlub.validation.score import FIGURES, Measured, any_case, at_least, at_most, share
+from mixedlub.validation.score import FIGURES, Measured, any_case, at_least, at_most, chosen, share
 
 LOSSES = frozenset({"windage", "bearing_drag"})
 
@@ -37,7 +37,4 @@ _OWN = (
     share("false_physics", "a false effect at 0.9 or more", any_case, false_physics, at_most(0.04)),
 )  # fmt: skip
 _AS_EVER = ("outliers_found", "outliers_false", "held_out", "coverage", "location", "seconds", "slowest")
-SOLVED_FIGURES: tuple[Measured, ...] = (
-    *_OWN,
-    *(figure for key in _AS_EVER for figure in FIGURES if figure.key == key),
-)
+SOLVED_FIGURES: tuple[Measured, ...] = (*_OWN, *chosen(FIGURES, *_AS_EVER))

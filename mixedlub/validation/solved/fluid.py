@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mixedlub.validation.contact import KELVIN, ROELANDS_PRESSURE, Oil
+from mixedlub.validation.contact import ROELANDS_PRESSURE, Oil
 
 State = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """A property over pressure (Pa) and temperature (C)."""
@@ -124,18 +124,6 @@ def roelands(rest: np.ndarray, slope: np.ndarray, pressure: np.ndarray) -> np.nd
     return np.asarray(
         level * (1 + np.maximum(pressure, 0.0) / ROELANDS_PRESSURE) ** (slope * ROELANDS_PRESSURE / level) - 9.67
     )
-
-
-def houpert(rest: float, slope: float, celsius: float, fall: float) -> State:
-    """Roelands' law in Houpert's form, from viscosity (Pa s), slope (1/Pa) and fall (1/K) at one temperature."""
-    level = np.log(rest) + 9.67
-    power, thinning = slope * ROELANDS_PRESSURE / level, fall * (celsius + KELVIN - 138) / level
-
-    def law(pressure: np.ndarray, now: np.ndarray) -> np.ndarray:
-        warm = ((now + KELVIN - 138) / (celsius + KELVIN - 138)) ** -thinning
-        return np.asarray(level * (1 + np.maximum(pressure, 0.0) / ROELANDS_PRESSURE) ** power * warm - 9.67)
-
-    return law
 
 
 LEAST_SLOPE = 2e-9

@@ -5,29 +5,23 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from mixedlub.validation.answers import Answer, Truth
-from mixedlub.validation.measures import (
-    false_law,
-    false_physics,
-    laws_named,
-    right,
-    tied,
-    unknown_suspected,
+from mixedlub.validation.measures import false_law, false_physics, laws_named, right, tied, unknown_suspected
+from mixedlub.validation.score import (
+    FIGURES,
+    Figure,
+    Measured,
+    any_case,
+    at_least,
+    at_most,
+    chosen,
+    clear,
+    of_class,
+    share,
 )
-from mixedlub.validation.score import FIGURES, Figure, Measured, any_case, at_least, at_most, share
 from mixedlub.validation.worlds.catalogue import TOGETHER
 
 Counts = Callable[[Truth, Answer], bool]
 Goal = tuple[float, float] | None
-AS_EVER = ("pair_both", "unknown", "outliers_found", "outliers_false", "crossed", "held_out", "coverage")
-TIMES = ("seconds", "slowest")
-
-
-def _in(*groups: str) -> Counts:
-    return lambda truth, answer: truth.group in groups
-
-
-def _clear(*groups: str) -> Counts:
-    return lambda truth, answer: truth.group in groups and truth.identifiable
 
 
 def _together(group: str) -> Counts:
@@ -51,7 +45,7 @@ def _every_law(truth: Truth, answer: Answer) -> float:
     return float(laws_named(truth.clear_laws, truth, answer) == 1.0)
 
 
-_NOTHING = _in("none")
+_NOTHING = of_class("none")
 _LAWS = (
     share("false_physics", "nothing missing: a false effect at 0.9 or more", _NOTHING, false_physics, at_most(0.03)),
     share("none", "  none, or laws alone", _NOTHING, right),
@@ -63,15 +57,10 @@ _LAWS = (
     _by_law("law_sole", "  of these, no law of another step comes near", lambda truth: truth.sole_laws, None),
     share("laws_all", "  all such laws of a rig", lambda truth, answer: bool(truth.clear_laws), _every_law),
     share("law_false", "a law named that the rig does not follow", any_case, false_law),
-    share("tied", "one effect: right or tied, beside any laws", _in("single"), tied, at_least(0.95)),
-    share("right", "  right, where identifiable", _clear("single"), right),
+    share("tied", "one effect: right or tied, beside any laws", of_class("single"), tied, at_least(0.95)),
+    share("right", "  right, where identifiable", clear("single"), right),
     share("tied_together", "  four laws at once: right or tied", _together("single"), tied, at_least(0.85)),
-    share("fault", "an instrument fault: right or tied, beside any laws", _in("measurement"), tied),
+    share("fault", "an instrument fault: right or tied, beside any laws", of_class("measurement"), tied),
 )  # fmt: skip
-
-
-def _as_ever(keys: tuple[str, ...]) -> tuple[Measured, ...]:
-    return tuple(figure for key in keys for figure in FIGURES if figure.key == key)
-
-
-WORLD_FIGURES: tuple[Measured, ...] = (*_LAWS, *_as_ever(AS_EVER), *_as_ever(TIMES))
+AS_EVER = ("pair_both", "unknown", "outliers_found", "outliers_false", "crossed", "held_out", "coverage")
+WORLD_FIGURES: tuple[Measured, ...] = (*_LAWS, *chosen(FIGURES, *AS_EVER, "seconds", "slowest"))

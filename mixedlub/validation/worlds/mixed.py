@@ -23,8 +23,6 @@ HALVINGS, SEPARATED = 16, 9.0
 """Bisections of a balance, and rms heights above which asperities carry no load."""
 Lighter = Callable[[Contact], Contact]
 """Contact with half the load carried by the film."""
-Weight = Callable[[Contact, np.ndarray], np.ndarray]
-"""Share of boundary friction, from a contact at its film and the share of the load on its asperities."""
 
 
 def half_load(c: Contact) -> Contact:
