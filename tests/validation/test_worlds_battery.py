@@ -97,7 +97,7 @@ def test_the_same_seed_deals_the_same_worlds(orders):
 
 
 def test_kinds_without_laws_and_too_few_cases_are_refused():
-    with pytest.raises(InputError, match="no other law"):
+    with pytest.raises(InputError, match="are dealt for gear_pair, disc"):
         plan_worlds(1, 40, ("disc", "friction_map"))
     with pytest.raises(InputError, match="at least 25"):
         plan_worlds(1, 24)
