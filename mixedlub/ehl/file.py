@@ -23,7 +23,7 @@ from mixedlub.laws.contact import reduced_modulus
 from mixedlub.laws.load import gear_line_load
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.schema.findings import Finding, collected
-from mixedlub.schema.section import Number, Section, Whole, examples, key
+from mixedlub.schema.section import Flag, Number, Section, Whole, examples, key
 from mixedlub.schema.surface_file import STEEL
 from mixedlub.schema.system_file import Gears
 from mixedlub.schema.toml_file import parse, read_toml
@@ -141,7 +141,7 @@ class EhlFile(Section):
     schema_: Literal["mixedlub-ehl/1"] = key("format of the file", example="mixedlub-ehl/1", alias="schema")
     title: str = key("title of the figures", "Line contacts", example="Twin discs")
     oil: str = key("file of the oil, relative to this one, or an oil by name, as in [lubricant]", example="oil.toml")
-    thermal: bool = key("solve for temperatures; false: all is at the oil's temperature", True)
+    thermal: Flag = key("solve for temperatures; false: all is at the oil's temperature", True)
     bodies: Bodies = key("the two bodies; left out: steel", Bodies())
     contacts: ContactList | None = key("contacts; or [gears] and [path]", None)
     gears: Gears | None = key("a gear pair, as in a study", None)
