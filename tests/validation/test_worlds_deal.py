@@ -29,7 +29,7 @@ def test_every_order_of_a_viscometer_has_a_rig(seed):
 
 def test_an_order_without_any_rig_is_refused_by_its_effect():
     (order,) = (one for one in plan_worlds(3, 12, ("viscosity",)) if one.effects == ("waxing",))
-    with pytest.raises(InputError, match="viscosity.*waxing"):
+    with pytest.raises(InputError, match=r"viscosity.*waxing"):
         _allowed(order, (PRESSURE,), (PRESSURE, TEMPERATURE), [])
 
 
