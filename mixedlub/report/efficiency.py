@@ -112,7 +112,7 @@ def _at_oils(losses: Losses) -> Iterator[tuple[str, str, Losses]]:
 def map_figure(title: str, losses: Losses) -> Figure | None:
     """Loss and gearbox efficiency over torque and speed; None for a single torque or speed."""
     from matplotlib.figure import Figure
-    from matplotlib.ticker import MaxNLocator
+    from matplotlib.ticker import MaxNLocator, ScalarFormatter
 
     torque, speed = np.unique(losses.torque), np.unique(losses.speed) * RPM
     if min(torque.size, speed.size) < LEAST_LEVELS:
@@ -130,8 +130,8 @@ def map_figure(title: str, losses: Losses) -> Figure | None:
             low = np.nanpercentile(values, 5)
             clipped = np.maximum(values, low) if "efficiency" in label else values
             drawn = _coloured(axis, speed, torque, clipped, colours)
-            bar = figure.colorbar(drawn, ax=axis, label=label, location="top", ticks=MaxNLocator(3))
-            bar.formatter.set_useOffset(False)
+            ticks = {"ticks": MaxNLocator(3), "format": ScalarFormatter(useOffset=False)}
+            figure.colorbar(drawn, ax=axis, label=label, location="top", **ticks)
         axis.set_xlabel("input speed (rpm)")
         axis.grid(visible=False)
     figure.axes[0].set_ylabel("input torque (N m)")
