@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from itertools import product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -130,7 +130,7 @@ def map_figure(title: str, losses: Losses) -> Figure | None:
             low = np.nanpercentile(values, 5)
             clipped = np.maximum(values, low) if "efficiency" in label else values
             drawn = _coloured(axis, speed, torque, clipped, colours)
-            ticks = {"ticks": MaxNLocator(3), "format": ScalarFormatter(useOffset=False)}
+            ticks: dict[str, Any] = {"ticks": MaxNLocator(3), "format": ScalarFormatter(useOffset=False)}
             figure.colorbar(drawn, ax=axis, label=label, location="top", **ticks)
         axis.set_xlabel("input speed (rpm)")
         axis.grid(visible=False)
