@@ -122,7 +122,7 @@ class Cycle(Section):
     """Condition of the mesh cycle and of the breakdown."""
 
     torque_Nm: Positive | None = key(
-        "torque at the input; left out: the largest of the map, of coast alone the one farthest below 0",
+        "torque at the input; left out: the largest of the map, of coast alone the lowest",
         None,
         example=200.0,
     )

@@ -190,7 +190,7 @@ class Gearbox:
 
 
 def strongest(torques: Sequence[float]) -> float:
-    """Largest torque; of coast alone the one farthest below 0.
+    """Largest torque; of coast alone the lowest.
 
     >>> strongest([-200.0, 50.0, 100.0]), strongest([-200.0, -100.0, 0.0])
     (100.0, -200.0)

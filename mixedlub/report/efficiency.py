@@ -34,7 +34,7 @@ CAPTIONS = {
     "map": "Total loss, tooth efficiency and gearbox efficiency over input speed and torque. Below a torque of 0 the "
     "output drives. The lowest twentieth of the efficiencies has one colour.",
     "breakdown": "Losses by origin, stacked: over torque at the largest speed, and over speed at the largest torque, "
-    "of coast alone the one farthest below 0.",
+    "of coast alone the lowest.",
     "efficiency": "Tooth efficiency over torque at some speeds, and over speed at some torques; the input drives, in a "
     "map of coast alone the output.",
     "loss_torque": "All losses as a torque of the input over its torque, at some speeds. Below a torque of 0 the "
