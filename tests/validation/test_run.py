@@ -250,7 +250,7 @@ def test_a_kind_without_other_laws_is_refused(tmp_path, capsys):
     assert main(["prove", "--worlds", "--kinds", "friction_map", "--out", str(tmp_path / "out")]) == 2
     said = capsys.readouterr().err
     assert "friction_map" in said
-    assert "no other law" in said
+    assert "are dealt for gear_pair" in said
 
 
 def test_full_physics_is_a_battery_of_gears_and_discs(tmp_path, capsys):
