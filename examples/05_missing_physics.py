@@ -12,6 +12,7 @@ import pandas as pd
 import mixedlub as ml
 
 HERE = Path(__file__).parent
+OUT = Path("out/missing_physics")
 HELD_BACK = [17, 22]
 
 joint = pd.read_csv(HERE / "real/tables/robot_joint_4.csv")
@@ -30,4 +31,6 @@ for (_, row), measured in zip(predictions.iterrows(), later["friction_torque_Nm"
     print(f"{row['speed_rpm']:6.2f} rpm: {interval}, {base}, measured {measured:.2f}")
 
 picture = ml.plot(answer, over="speed_rpm", later=later["friction_torque_Nm"])
-picture.savefig(HERE / "missing_physics.svg", metadata={"Date": None})
+OUT.mkdir(parents=True, exist_ok=True)
+picture.savefig(OUT / "missing_physics.svg", metadata={"Date": None})
+print(f"Drawn: {OUT / 'missing_physics.svg'}")

@@ -7,10 +7,13 @@ from typing import Any, get_args, get_origin
 
 import pytest
 
+from mixedlub.ehl.file import AsperitySection, Bodies
 from mixedlub.kinds import KINDS, kind
 from mixedlub.schema import ranges, system_file, toml_file
 from mixedlub.schema.section import Section, plain, tables
+from mixedlub.skew_gears.file import SkewGears
 from mixedlub.study.schema import StudyFile
+from mixedlub.worm_gears.file import Worm
 from profiles.errors import InputError
 
 FREE = {"gears.teeth"}
@@ -55,6 +58,23 @@ def test_rows_of_recordings_are_columns_of_a_kind() -> None:
 def test_what_is_usual_is_possible(key: str) -> None:
     found = ranges.ranges()[key]
     assert found.possible[0] <= found.typical[0] < found.typical[1] <= found.possible[1]
+
+
+@pytest.mark.parametrize(
+    ("section", "key", "limits"),
+    [
+        (SkewGears, "youngs_modulus_GPa", (0.1, 2000.0)),
+        (Worm, "youngs_modulus_GPa", (0.1, 2000.0)),
+        (Bodies, "youngs_modulus_GPa", (0.1, 2000.0)),
+        (SkewGears, "poisson_ratio", (0.0, 0.4999)),
+        (Worm, "poisson_ratio", (0.0, 0.4999)),
+        (AsperitySection, "hardness_GPa", (0.01, 150.0)),
+    ],
+)
+def test_bodies_of_other_files_have_the_bounds_of_a_case(section, key, limits) -> None:
+    within = ranges.range_of(section.model_fields[key])
+    assert within is not None
+    assert within.possible == limits
 
 
 def system(section: str, key: str, value: object) -> dict:

@@ -262,7 +262,7 @@ def _with_traction(system: system_file.System, notes: list[Finding]) -> system_f
     part = None if system.lubricant is None else system.lubricant.traction
     if part is None:
         return system
-    notes.append(part.told)
+    notes += part.told(system.effects.keys())
     stress, sds = part.eyring_stress_MPa, system.uncertainty
     if sds.eyring_stress == 0.0 and stress.sd > 0.0:
         sds = sds.model_copy(update={"eyring_stress": stress.sd / stress.value})

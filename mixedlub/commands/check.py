@@ -51,6 +51,7 @@ def understood(case: Case) -> Iterator[str]:
     if case.system.description:
         yield f"  Described as: {case.system.description}"
     yield f"Base model: {case.base_model}"
+    yield from _flattened(case)
     with collected() as reported:
         bodies = list(_bodies(case))
         forward = _forward(case)
@@ -78,6 +79,16 @@ def understood(case: Case) -> Iterator[str]:
     notes = [*grouped(of_severity(found, Severity.NOTE)), *assumed(case, forward)]
     yield "Assumed:" if notes else "Assumed: nothing beyond what the files say."
     yield from (f"  {one}" for one in notes)
+
+
+def _flattened(case: Case) -> Iterator[str]:
+    """Roughness of the asperities, where the case chooses it."""
+    from mixedlub.schema.system_file import FLATTENING
+
+    chosen, share = case.system.flattening, case.system.short_cutoff_over_half_width
+    cutoff = "" if share is None else f"; short cut-off at {share:g} of the half-width of the contact"
+    if cutoff or chosen != "none":
+        yield f"Roughness of the asperities, flattening = {chosen}: {FLATTENING[chosen]}{cutoff}."
 
 
 def _bodies(case: Case) -> Iterator[str]:

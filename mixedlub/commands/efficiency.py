@@ -51,7 +51,7 @@ def command(
         to = how.open(file.stem, origin_of_file(file), tables.TABLES, "file", PAGE, GIVEN)
         with busy("computing"):
             losses, at = gearbox.map(), gearbox.at_cycle()
-            cycles = mesh_cycles(gearbox, at)
+            cycles = mesh_cycles(at.gearbox, at)
     print_findings([*losses.findings, *findings])
     made = {
         "map": tables.map_table(losses),

@@ -122,7 +122,11 @@ class Duty(Section):
 class Cycle(Section):
     """Condition of the mesh cycle and of the breakdown."""
 
-    torque_Nm: Positive | None = key("torque at the input; left out: the largest of the map", None, example=200.0)
+    torque_Nm: Positive | None = key(
+        "torque at the input; left out: the largest of the map, of coast alone the lowest",
+        None,
+        example=200.0,
+    )
     speed_rpm: Positive | None = key("speed of the input; left out: the largest of the map", None, example=4000.0)
     positions: Whole = key("positions over a base pitch", 64, ge=4, le=10_000)
 
@@ -172,8 +176,8 @@ class EfficiencyFile(Section):
 
     @model_validator(mode="after")
     def _loaded_cycle(self) -> EfficiencyFile:
-        if self.cycle.torque_Nm is None and max(self.conditions.torque_Nm) <= 0.0:
-            raise ValueError("no torque of the map is above 0, where a mesh cycle exists: give cycle.torque_Nm")
+        if self.cycle.torque_Nm is None and not any(self.conditions.torque_Nm):
+            raise ValueError("all torques of the map are 0, and a mesh cycle needs loaded teeth: give cycle.torque_Nm")
         return self
 
     @model_validator(mode="after")

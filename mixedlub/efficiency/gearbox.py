@@ -178,11 +178,24 @@ class Gearbox:
         return Losses(self, np.tile(torque.ravel(), len(each)), np.tile(speed.ravel(), len(each)), *found, oil)
 
     def at_cycle(self) -> Losses:
-        """Losses at the condition of the mesh cycle, with a torque above 0."""
+        """Losses at the condition of the mesh cycle; in coast of the gearbox driven at its output."""
         cycle, levels = self.file.cycle, self.file.conditions
-        torque = max(levels.torque_Nm) if cycle.torque_Nm is None else cycle.torque_Nm
+        torque = strongest(levels.torque_Nm) if cycle.torque_Nm is None else cycle.torque_Nm
         speed = max(levels.speed_rpm) if cycle.speed_rpm is None else cycle.speed_rpm
-        return self.losses(np.array([torque]), np.array([speed * np.pi / 30.0]))
+        at = self.losses(np.array([torque]), np.array([speed * np.pi / 30.0]))
+        if self.coasting is None or torque >= 0.0:
+            return at
+        turning = at.speed / self.ratio
+        return self.coasting.losses(at.power_taken / turning, turning)
+
+
+def strongest(torques: Sequence[float]) -> float:
+    """Largest torque; of coast alone the lowest.
+
+    >>> strongest([-200.0, 50.0, 100.0]), strongest([-200.0, -100.0, 0.0])
+    (100.0, -200.0)
+    """
+    return max(torques) if max(torques) > 0.0 else min(torques)
 
 
 def _joined(parts: Sequence[tuple[np.ndarray, Found]]) -> Found:

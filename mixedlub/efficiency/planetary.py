@@ -126,7 +126,7 @@ class PlanetaryModel:
         ]
 
     def state(self, torque: np.ndarray, speed: np.ndarray) -> PlanetaryState:
-        """Equilibrium in which every mesh has the efficiency of its own load and relative speed."""
+        """Equilibrium in which every mesh has the efficiency at its load and relative speed."""
         shape = (len(self.meshes), torque.size)
         frictionless = self.train.flow(torque, np.ones(shape))
         flow, lost, pin, gain = frictionless, np.zeros(shape), self._pins(frictionless, speed), np.ones(torque.size)

@@ -77,7 +77,7 @@ def _runs(file: EfficiencyFile) -> list[list[str]]:
 def _stages(
     path: Path, sections: dict[str, Stage], notes: list[Finding], *, idles: bool, coast: bool
 ) -> dict[str, StageModel | PlanetaryModel]:
-    """Stages of one gear pair that follow each other; what is found goes to ``notes``."""
+    """Stages of one gear pair that follow each other; findings go to ``notes``."""
     studies: dict[str, Study] = {}
     for name, section in sections.items():
         where = f"stages.{name}"

@@ -27,6 +27,8 @@ HOTTEST_TEETH_C = 500.0
 MARGIN = 1.0
 """Grid. Distance (K) of the teeth to the temperature at which the oil has no pressure-viscosity coefficient."""
 WHERE = "thermal"
+NO_BALANCE = "thermal_no_balance"
+"""Definition. Code of conditions without balance, in findings and as their validity."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +81,7 @@ class Balance:
             most = float(np.max(self._apart[~self.found & ~self.too_hot]))
             where = "heat in and heat out of sump or teeth differ by up to"
             texts.append(f"{loose} of {of} conditions did not converge: {where} {most:.1g}")
-        return tuple(finding("thermal_no_balance", text, WHERE) for text in texts)
+        return tuple(finding(NO_BALANCE, text, WHERE) for text in texts)
 
 
 class ThermalModel:

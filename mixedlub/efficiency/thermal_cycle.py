@@ -29,7 +29,7 @@ Losses = Callable[[np.ndarray], np.ndarray]
 class Cycle:
     """Temperatures (K) and heat (J) of the operating points of a duty cycle, in their order.
 
-    ``closed``: ends as it starts, or has a start of its own; ``inside``: below the highest temperature; ``settled``:
+    ``closed``: ends as it starts, or has a stated start; ``inside``: below the highest temperature; ``settled``:
     the teeth have a temperature at all its sump temperatures.
 
     ``start``, ``end``, ``highest``, ``mean``: sump temperature of each point; ``lost``, ``removed``, ``stored``: heat

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 import pandas as pd
 
-from mixedlub.efficiency.thermal import Balance, ThermalModel
+from mixedlub.efficiency.thermal import NO_BALANCE, Balance, ThermalModel
 from mixedlub.efficiency.thermal_cycle import HOUR, Cycle, cycle
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.schema.findings import Finding
@@ -25,8 +25,8 @@ STEADY = {
     "gearbox_efficiency_percent": "1 less all losses over input power; empty without torque",
     "WAY_heat_W": "heat by a way, positive to the surroundings",
     "heat_difference": "heat out less heat in, over heat in",
-    "balance": "text: converged, none up to the highest temperature, or not converged",
-    "validity": "text: valid, or what is not",
+    "balance": "text: converged; none up to the highest temperature, or not converged: numbers are empty",
+    "validity": f"text: valid, or the reason against it; {NO_BALANCE} without balance",
 }
 TABLES = {
     "thermal": described(**AT, **STEADY),
@@ -65,11 +65,9 @@ def thermal_tables(model: ThermalModel, steady: Balance) -> tuple[dict[str, pd.D
 
 
 def steady_table(one: Balance) -> pd.DataFrame:
-    """A row a condition: temperatures, losses, and heat by way."""
+    """A row a condition: temperatures, losses, and heat by way; empty where no balance was found."""
     wall = one.paths.wall(one.sump) if one.paths.section.housing is not None else np.full_like(one.sump, np.nan)
-    columns = {
-        "torque_Nm": one.losses.torque,
-        "speed_rpm": one.losses.speed * RPM,
+    numbers = {
         "sump_temperature_C": one.sump - ZERO_CELSIUS,
         "housing_temperature_C": wall - ZERO_CELSIUS,
         **{f"{name}_tooth_temperature_C": one.sump - ZERO_CELSIUS + rise for name, rise in one.rise.items()},
@@ -77,8 +75,13 @@ def steady_table(one: Balance) -> pd.DataFrame:
         "gearbox_efficiency_percent": 100.0 * one.losses.efficiency(),
         **{f"{name}_heat_W": values for name, values in one.heat.items()},
         "heat_difference": one.gap,
+    }
+    columns = {
+        "torque_Nm": one.losses.torque,
+        "speed_rpm": one.losses.speed * RPM,
+        **{name: np.where(one.found, values, np.nan) for name, values in numbers.items()},
         "balance": np.where(one.found, BALANCED, np.where(one.too_hot, OPEN, UNSETTLED)),
-        "validity": list(one.losses.validity),
+        "validity": np.where(one.found, np.array(one.losses.validity), NO_BALANCE),
     }
     return pd.DataFrame(columns)
 

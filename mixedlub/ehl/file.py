@@ -23,7 +23,8 @@ from mixedlub.laws.contact import reduced_modulus
 from mixedlub.laws.load import gear_line_load
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.schema.findings import Finding, collected
-from mixedlub.schema.section import Number, Section, Whole, examples, key
+from mixedlub.schema.ranges import ranges
+from mixedlub.schema.section import Flag, Number, Section, Whole, examples, key
 from mixedlub.schema.surface_file import STEEL
 from mixedlub.schema.system_file import Gears
 from mixedlub.schema.toml_file import parse, read_toml
@@ -53,7 +54,7 @@ EachPositive = Annotated[tuple[Positive, ...], Field(min_length=1), BeforeValida
 
 
 class Bodies(Section):
-    youngs_modulus_GPa: Pair | None = key(
+    youngs_modulus_GPa: Annotated[Pair | None, ranges()["contact.youngs_modulus_GPa"]] = key(
         "Young's moduli; left out: steel, or those of [gears]", None, example=[206.0, 206.0]
     )
     poisson_ratio: tuple[Poisson, Poisson] | None = key(
@@ -114,7 +115,7 @@ class AsperitySection(Section):
     law: Literal[LAWS] = key(  # type: ignore[valid-type]
         "law of the asperities", LAWS[0], values={name: ASPERITY_LOAD.choices[name].title for name in LAWS}
     )
-    hardness_GPa: Positive | None = key(
+    hardness_GPa: Annotated[Positive | None, ranges()["options.hardness_GPa"]] = key(
         "indentation hardness of the softer body, for asperities that yield", None, example=6.0, alternative=True
     )
     boundary_friction: Positive = key("friction coefficient of the asperities", 0.1)
@@ -141,7 +142,7 @@ class EhlFile(Section):
     schema_: Literal["mixedlub-ehl/1"] = key("format of the file", example="mixedlub-ehl/1", alias="schema")
     title: str = key("title of the figures", "Line contacts", example="Twin discs")
     oil: str = key("file of the oil, relative to this one, or an oil by name, as in [lubricant]", example="oil.toml")
-    thermal: bool = key("solve for temperatures; false: all is at the oil's temperature", True)
+    thermal: Flag = key("solve for temperatures; false: all is at the oil's temperature", True)
     bodies: Bodies = key("the two bodies; left out: steel", Bodies())
     contacts: ContactList | None = key("contacts; or [gears] and [path]", None)
     gears: Gears | None = key("a gear pair, as in a study", None)

@@ -27,7 +27,7 @@ from mixedlub.laws.contact import (
 from mixedlub.recording.set_points import near_values
 from mixedlub.schema.findings import report
 from mixedlub.schema.result import curve
-from mixedlub.schema.section import Number, Section, key
+from mixedlub.schema.section import Flag, Number, Section, key
 from mixedlub.schema.system_file import Contact, RigFile
 from mixedlub.schema.table import RUN, Column, Table, read_table
 from mixedlub.schema.toml_file import named_file
@@ -72,7 +72,7 @@ class TwoDiscFile(RigFile):
     readings: str = key("table of the readings, relative to this file", example="readings.csv")
     contact: Contact = key("the two discs")
     meters: Meters = key("standard deviations of the meters, and what the torque contains", Meters())
-    traction_part: bool = key(
+    traction_part: Flag = key(
         "fit Eyring stress and limiting stress of the oil over pressure and temperature to the readings, and write "
         "oil.toml with them",
         False,

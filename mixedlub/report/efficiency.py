@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
+from itertools import product
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mixedlub.efficiency.gearbox import MESH, Losses
+from mixedlub.efficiency.gearbox import MESH, Losses, strongest
 from mixedlub.efficiency.table import RPM, map_table, present
 from mixedlub.report.panels import panel_figure
 from mixedlub.report.style import SMALL, WIDTH, legend_above, panels, shades
@@ -17,6 +18,7 @@ from mixedlub.schema.result import Curve, Drawing, Panel, curve
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
+    from matplotlib.cm import ScalarMappable
     from matplotlib.figure import Figure
 
     from mixedlub.efficiency.mesh_cycle import MeshCycle
@@ -24,13 +26,17 @@ if TYPE_CHECKING:
 LEVELS = 12
 CURVES = 5
 """Largest number of curves in a figure of the efficiency."""
+FLAT = 1e-3
+"""Judgement. Range of a map over its values below which it counts as flat and its colours span this much."""
 LEAST_LEVELS = 2
 """Smallest number of torques and speeds of a map."""
 CAPTIONS = {
     "map": "Total loss, tooth efficiency and gearbox efficiency over input speed and torque. Below a torque of 0 the "
     "output drives. The lowest twentieth of the efficiencies has one colour.",
-    "breakdown": "Losses by origin, stacked: over torque at the largest speed, and over speed at the largest torque.",
-    "efficiency": "Tooth efficiency over torque at some speeds, and over speed at some torques; the input drives.",
+    "breakdown": "Losses by origin, stacked: over torque at the largest speed, and over speed at the largest torque, "
+    "of coast alone the lowest.",
+    "efficiency": "Tooth efficiency over torque at some speeds, and over speed at some torques; the input drives, in a "
+    "map of coast alone the output.",
     "loss_torque": "All losses as a torque of the input over its torque, at some speeds. Below a torque of 0 the "
     "output drives.",
     "oil_temperature": "Total loss and gearbox efficiency over the oil temperature at the largest speed.",
@@ -72,7 +78,8 @@ def _thermal(tables: Mapping[str, pd.DataFrame]) -> Iterator[Panel]:
     torques = np.unique(table["torque_Nm"])
     chosen = torques[np.unique(np.linspace(0, torques.size - 1, CURVES).astype(int))]
     curves = tuple(
-        curve(table[table["torque_Nm"] == one], "speed_rpm", "sump_temperature_C", f"{one:g} N m") for one in chosen
+        curve(table[table["torque_Nm"] == one], "speed_rpm", "sump_temperature_C", f"{one:g} N m", style="o-")
+        for one in chosen
     )
     yield Panel("speed of the input (rpm)", "sump temperature (°C)", curves)
     if "thermal_history" in tables:
@@ -105,7 +112,7 @@ def _at_oils(losses: Losses) -> Iterator[tuple[str, str, Losses]]:
 def map_figure(title: str, losses: Losses) -> Figure | None:
     """Loss and gearbox efficiency over torque and speed; None for a single torque or speed."""
     from matplotlib.figure import Figure
-    from matplotlib.ticker import MaxNLocator
+    from matplotlib.ticker import MaxNLocator, ScalarFormatter
 
     torque, speed = np.unique(losses.torque), np.unique(losses.speed) * RPM
     if min(torque.size, speed.size) < LEAST_LEVELS:
@@ -121,9 +128,10 @@ def map_figure(title: str, losses: Losses) -> Figure | None:
     for axis, (values, label, colours) in zip(figure.subplots(1, 3, sharey=True), shown, strict=True):
         if np.isfinite(values).any():
             low = np.nanpercentile(values, 5)
-            clipped = np.ma.masked_invalid(np.maximum(values, low)) if "efficiency" in label else values
-            drawn = axis.contourf(speed, torque, clipped, LEVELS, cmap=colours)
-            figure.colorbar(drawn, ax=axis, label=label, location="top", ticks=MaxNLocator(3))
+            clipped = np.maximum(values, low) if "efficiency" in label else values
+            drawn = _coloured(axis, speed, torque, clipped, colours)
+            ticks: dict[str, Any] = {"ticks": MaxNLocator(3), "format": ScalarFormatter(useOffset=False)}
+            figure.colorbar(drawn, ax=axis, label=label, location="top", **ticks)
         axis.set_xlabel("input speed (rpm)")
         axis.grid(visible=False)
     figure.axes[0].set_ylabel("input torque (N m)")
@@ -131,14 +139,41 @@ def map_figure(title: str, losses: Losses) -> Figure | None:
     return figure
 
 
+def _coloured(axis: Axes, speed: np.ndarray, torque: np.ndarray, values: np.ndarray, colours: str) -> ScalarMappable:
+    """Values over speed and torque as coloured areas; as points where no neighbour has a value."""
+    there = np.isfinite(values)
+    cells = there[:-1, :-1] & there[1:, :-1] & there[:-1, 1:] & there[1:, 1:]
+    inside = np.zeros_like(there)
+    for rows, columns in product((slice(None, -1), slice(1, None)), repeat=2):
+        inside[rows, columns] |= cells
+    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    least = FLAT * max(abs(low), abs(high))
+    flat = high - low < least
+    ends = (low - least, high + least) if flat else (low, high)
+    drawn: ScalarMappable | None = None
+    if cells.any():
+        levels = np.linspace(*ends, LEVELS + 1) if flat else LEVELS
+        drawn = axis.contourf(speed, torque, np.ma.masked_invalid(values), levels, cmap=colours)
+    row, column = np.nonzero(there & ~inside)
+    if row.size:
+        scale = {"norm": drawn.norm} if drawn is not None else dict(zip(("vmin", "vmax"), ends, strict=True))
+        points = axis.scatter(speed[column], torque[row], c=values[row, column], cmap=colours, clip_on=False, **scale)
+        drawn = drawn or points
+    axis.set_xlim(speed.min(), speed.max())
+    axis.set_ylim(torque.min(), torque.max())
+    assert drawn is not None
+    return drawn
+
+
 def breakdown_figure(title: str, losses: Losses) -> Figure:
     """Losses by origin, stacked: over torque at the largest speed, and over speed at the largest torque."""
     figure, axes, _ = panels(2, 2, height=2.9, sharex=False, sharey=False)
-    at_speed, at_torque = losses.speed == losses.speed.max(), losses.torque == losses.torque.max()
+    torque = strongest(losses.torque.tolist())
+    at_speed, at_torque = losses.speed == losses.speed.max(), losses.torque == torque
     _stacked(axes[0], losses, losses.torque, at_speed)
     axes[0].set_xlabel(f"input torque (N m) at {losses.speed.max() * RPM:.4g} rpm")
     _stacked(axes[1], losses, losses.speed * RPM, at_torque)
-    axes[1].set_xlabel(f"input speed (rpm) at {losses.torque.max():.4g} N m")
+    axes[1].set_xlabel(f"input speed (rpm) at {torque:.4g} N m")
     axes[0].set_ylabel("loss (W)")
     legend_above(figure, axes[0], f"{title}: losses by origin", columns=7)
     return figure
@@ -149,18 +184,27 @@ def _stacked(axis: Axes, losses: Losses, across: np.ndarray, chosen: np.ndarray)
     origins = [origin for origin in present(losses) if losses.total(origins=(origin,)).any()]
     stack = [losses.total(origins=(origin,))[chosen][order] for origin in origins]
     place = across[chosen][order]
-    if place.size == 1:
-        place, stack = np.array([0.0, 1.0]) * place, [np.repeat(values, 2) for values in stack]
-    axis.stackplot(place, stack, labels=origins, colors=shades(len(origins)))
+    if place.size > 1:
+        axis.stackplot(place, stack, labels=origins, colors=shades(len(origins)))
+        axis.set_xlim(place.min(), place.max())
+    else:
+        below = np.cumsum([0.0 * place, *stack], axis=0)
+        for origin, values, start, colour in zip(origins, stack, below, shades(len(origins)), strict=False):
+            axis.bar([f"{place[0]:.4g}"], values, 0.4, start, label=origin, color=colour)
+        axis.set_xlim(-1.0, 1.0)
     axis.set_ylim(bottom=0.0)
-    axis.set_xlim(place.min(), place.max())
 
 
 def _efficiency(table: pd.DataFrame) -> Iterator[Panel]:
-    """Tooth efficiency over torque at some speeds, and over speed at some torques."""
-    table = table[table["torque_Nm"] > 0.0]
+    """Tooth efficiency over torque at some speeds, and over speed at some torques; a single level has no panel.
+
+    Of drive; of coast in a map of coast alone.
+    """
+    drive = table["torque_Nm"] > 0.0
+    table = table[drive if drive.any() else table["torque_Nm"] < 0.0]
     torque, speed = ("torque_Nm", "torque (N m)", "N m"), ("speed_rpm", "speed (rpm)", "rpm")
-    for (name, words, _), (other, _, unit) in ((torque, speed), (speed, torque)):
+    over = [pair for pair in ((torque, speed), (speed, torque)) if table[pair[0][0]].nunique() > 1]
+    for (name, words, _), (other, _, unit) in over or ((torque, speed),):
         lines = [
             curve(
                 table[table[other] == level].sort_values(name),
@@ -176,9 +220,12 @@ def _efficiency(table: pd.DataFrame) -> Iterator[Panel]:
 def _loss_torque(table: pd.DataFrame) -> Iterator[Panel]:
     """All losses as a torque of the input over its torque, at some speeds."""
     torque = table["total_loss_W"] * RPM / table["speed_rpm"]
+    style = "-" if table["torque_Nm"].nunique() > 1 else "o"
     lost = table.assign(torque_loss_Nm=torque)
     lines = [
-        curve(rows.sort_values("torque_Nm"), "torque_Nm", "torque_loss_Nm", f"{level:.4g} rpm", group=group)
+        curve(
+            rows.sort_values("torque_Nm"), "torque_Nm", "torque_loss_Nm", f"{level:.4g} rpm", group=group, style=style
+        )
         for group, level in enumerate(_some(table["speed_rpm"].to_numpy()))
         for rows in (lost[lost["speed_rpm"] == level],)
     ]

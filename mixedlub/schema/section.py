@@ -59,6 +59,8 @@ def one_of(value: str, known: Iterable[str]) -> str:
 Float = Annotated[float, BeforeValidator(_number)]
 Number = Annotated[Float, Field(allow_inf_nan=False)]
 Whole = Annotated[int, BeforeValidator(_whole)]
+Flag = Annotated[bool, Field(strict=True)]
+"""true or false, and no word or number that could stand for them."""
 NumberOrName = Annotated[Any, BeforeValidator(_number_or_name)]
 NAME = "NAME"
 """Placeholder for a user-given table name."""

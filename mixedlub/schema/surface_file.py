@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from mixedlub.schema.section import Number, Section, key
+from mixedlub.schema.section import Flag, Number, Section, key
 
 Files = Annotated[tuple[str, ...], Field(min_length=1)]
 
@@ -104,7 +104,7 @@ class SurfaceSection(Section):
     form: str | None = key(
         "form taken off a trace: line (left out), none, mean, circle, polynomial-N, involute-MM", None, example="line"
     )
-    edges: Annotated[bool, Field(strict=True)] = key("true: chamfers and falling ends are cut off", True, example=False)
+    edges: Flag = key("true: chamfers and falling ends are cut off", True, example=False)
     outliers: Number | None = key("a trace is masked beyond so many robust standard deviations", None, example=5.0)
     coating: Coating | None = key(
         "only where there is one", None, example={"name": "DLC", "thickness_um": 3.0, "thermal_conductivity_W_mK": 2.0}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
@@ -19,6 +19,8 @@ LIMIT = {
     "limit_offset": "offset",
 }
 """Keys of the part and parameters of the effect `limiting_shear_stress`."""
+WORDS = {"shear_law": "Eyring stress", "limiting_shear_stress": "limiting stress"}
+"""Stresses of the part by the effects that they become."""
 MOST_PRESSURE = 8.0
 """Judgement. Largest Hertz pressure (GPa) of readings: hard steel yields far below."""
 WITHOUT_RATE = {"rate_exponent": 0.0, "rate_onset": 8.0}
@@ -78,13 +80,16 @@ class Traction(Section):
             raise ValueError(f"{lone[0]} needs limit_over_pressure")
         return self
 
-    @property
-    def told(self) -> Finding:
-        """Finding that the part is read."""
+    def told(self, stated: Collection[str]) -> Iterator[Finding]:
+        """Findings on the stresses that are read, and on those that ``stated`` effects replace."""
         (low, high), (cold, hot) = self.pressure_GPa, self.temperature_C
-        limit = " and limiting stress" if self.limit_over_pressure is not None else ""
-        text = f"Eyring stress{limit} by the traction part of the oil, from readings at {low:g} to {high:g} GPa and "
-        return finding("traction_read", f"{text}{cold:g} to {hot:g} °C ({self.source})", "lubricant.traction")
+        words = {name: WORDS[name] for name in self.effects(uncertain=False)}
+        if read := " and ".join(text for name, text in words.items() if name not in stated):
+            text = f"{read} by the traction part of the oil, from readings at {low:g} to {high:g} GPa and "
+            yield finding("traction_read", f"{text}{cold:g} to {hot:g} °C ({self.source})", "lubricant.traction")
+        for name in (name for name in words if name in stated):
+            text = f"takes the place of the law of the {words[name]} in the traction part of the oil"
+            yield finding("traction_unread", text, f"effects.{name}")
 
     def effects(self, *, uncertain: bool) -> dict[str, dict[str, Any]]:
         """Section ``[effects]`` for this part; ``uncertain``: with standard deviations."""

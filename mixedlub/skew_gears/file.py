@@ -10,6 +10,7 @@ from pydantic import Field, model_validator
 
 from mixedlub.efficiency.file import Flanks, Side
 from mixedlub.schema.lubricant_section import Lubricant, Pair
+from mixedlub.schema.ranges import ranges
 from mixedlub.schema.section import Number, Section, Whole, key
 from mixedlub.skew_gears.blank import ToothData
 from mixedlub.skew_gears.pitch_cones import Basic
@@ -85,8 +86,8 @@ class SkewGears(Section):
             "high": "falls to the edges, fast over the profile",
         },
     )
-    youngs_modulus_GPa: Pair = key("Young's moduli", (206.0, 206.0))
-    poisson_ratio: Pair = key("Poisson's ratios", (0.3, 0.3))
+    youngs_modulus_GPa: Annotated[Pair, ranges()["gears.youngs_modulus_GPa"]] = key("Young's moduli", (206.0, 206.0))
+    poisson_ratio: Annotated[Pair, ranges()["gears.poisson_ratio"]] = key("Poisson's ratios", (0.3, 0.3))
 
     @model_validator(mode="after")
     def _consistent(self) -> SkewGears:

@@ -44,11 +44,12 @@ Cause = tuple[int, int] | str
 
 @dataclass(frozen=True, eq=False)
 class Axis:
-    """Inputs at both ends of one uncertainty."""
+    """Inputs at both ends of one uncertainty; ``reach``: way to the low end over the whole way, below 1 where cut."""
 
     low: Values
     high: Values
     cause: Cause
+    reach: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,6 +107,7 @@ def groups(
         found.append(Group(own, tuple(axes), factor))
     if over_cutoffs:
         _tell_cutoffs(rig, measured)
+    _tell_cut(uncertain, common)
     return tuple(found)
 
 
@@ -137,10 +139,30 @@ def _stated(
             for sign in (-1.0, 1.0)
         )
     elif name == BOUNDARY:
-        low, high = ({**own, name: max(own[name] + sign * REACH * sd, 0.0)} for sign in (-1.0, 1.0))
+        reach = _reach(own[name], sd)
+        low, high = ({**own, name: own[name] + step * REACH * sd} for step in (-reach, 1.0))
+        return Axis(low, high, name, reach)
     else:
         low, high = ({**own, name: own[name] * np.exp(sign * REACH * sd)} for sign in (-1.0, 1.0))
     return Axis(low, high, name)
+
+
+def _reach(value: float, sd: float) -> float:
+    """Way to the low end of a band that ends at 0, over the way to its end without that limit.
+
+    >>> round(_reach(0.1, 0.1), 3), _reach(0.1, 0.02)
+    (0.608, 1.0)
+    """
+    return float(min(1.0, value / (REACH * sd))) if sd > 0.0 else 1.0
+
+
+def _tell_cut(uncertain: Mapping[str, float], common: Values) -> None:
+    """Report a band of boundary friction that ends at 0 before its low end."""
+    sd = uncertain.get(BOUNDARY, 0.0)
+    if (reach := _reach(common.get(BOUNDARY, 0.0), sd)) < 1.0:
+        whole = common[BOUNDARY] - REACH * sd
+        text = f"its 90 % band would begin at {whole:.2g} and is cut at 0, {100.0 * reach:.2g} % of the way"
+        report(finding("band_end_cut", text, f"uncertainty.{BOUNDARY}"))
 
 
 def _rougher(surface: Surface, step: float) -> Surface:

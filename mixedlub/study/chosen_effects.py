@@ -61,7 +61,8 @@ def with_traction(file: StudyFile, effects: Mapping[str, Any]) -> Mapping[str, A
             text = f'the traction part of the oil is not read with {name} = "{getattr(options, name)}"'
             report(finding("traction_unread", text, f"options.{name}"))
             return effects
-    report(part.told)
+    for one in part.told(effects.keys()):
+        report(one)
     return {**part.effects(uncertain=False), **effects}
 
 

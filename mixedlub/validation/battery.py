@@ -26,6 +26,8 @@ from profiles.errors import InputError
 
 RIGS_SURVEYED = 60
 """Rigs drawn per kind to list the effects that can be planted on it."""
+MARK = "battery.json"
+"""File beside the cases of a battery that says how they were dealt."""
 Card = TypeVar("Card")
 
 
@@ -341,6 +343,14 @@ def _stop_at_once() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
+def read_mark(folder: Path) -> dict[str, Any]:
+    """Kinds, seed, size and planner of the battery in a folder; a file without planner is of ``plan``."""
+    file = folder / MARK
+    if not file.exists():
+        raise InputError(f"{MARK}, which names the battery, is missing", where=str(folder))
+    return {"dealt_by": plan.__name__, **json.loads(file.read_text(encoding="utf-8"))}
+
+
 def generate(
     folder: Path,
     seed: int,
@@ -353,9 +363,8 @@ def generate(
     """Write the missing cases of a battery into a folder; returns the case folders."""
     orders = dealt(seed, cases, kinds)
     folder.mkdir(parents=True, exist_ok=True)
-    mark, file = {"kinds": list(kinds), "seed": seed, "cases": cases}, folder / "battery.json"
-    mark |= {} if dealt is plan else {"dealt_by": dealt.__name__}
-    if file.exists() and json.loads(file.read_text(encoding="utf-8")) != mark:
+    mark, file = {"kinds": list(kinds), "seed": seed, "cases": cases, "dealt_by": dealt.__name__}, folder / MARK
+    if file.exists() and read_mark(folder) != mark:
         raise InputError("the folder holds a battery of other kinds, seed or size", where=str(folder), value=mark)
     file.write_text(json.dumps(mark), encoding="utf-8")
     report = progress or (lambda done, total: None)

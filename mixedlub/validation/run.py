@@ -13,14 +13,14 @@ from pathlib import Path
 
 from mixedlub.validation.answers import Truth, read_answer, read_truth, silent
 from mixedlub.validation.baselines import BASELINES, RIGS, refuse_without_learners
-from mixedlub.validation.battery import generate, plan, workers
+from mixedlub.validation.battery import MARK, generate, plan, read_mark, workers
 from mixedlub.validation.measures import Pair
 from mixedlub.validation.oracle import oracle
 from mixedlub.validation.outside import OUTSIDE_FIGURES
 from mixedlub.validation.poor import POOR_FIGURES
 from mixedlub.validation.rigs import CONTACTS, KINDS
 from mixedlub.validation.sample_case import Order
-from mixedlub.validation.score import FIGURES, Score, score
+from mixedlub.validation.score import FIGURES, Measured, Score, score
 from mixedlub.validation.solved.figures import SOLVED_FIGURES
 from mixedlub.validation.tables import by_form, counts, wrong
 from mixedlub.validation.worlds.figures import WORLD_FIGURES
@@ -31,6 +31,15 @@ Progress = Callable[[str, int, int], None]
 TOOL = "mixedlub diagnose"
 CEILING = "oracle"
 BROKEN, REFUSED = "broken.txt", "refused.txt"
+FIGURES_BY: dict[str, tuple[Measured, ...]] = {
+    "plan": FIGURES,
+    "plan_worlds": WORLD_FIGURES,
+    "plan_poor": POOR_FIGURES,
+    "plan_forms": FIGURES,
+    "plan_outside": OUTSIDE_FIGURES,
+    "plan_solved": SOLVED_FIGURES,
+}
+"""Figures of each battery by the name of its planner."""
 
 
 def quiet(stage: str, done: int, total: int) -> None:
@@ -160,18 +169,24 @@ def _collected(out: Path, truths: Sequence[Truth]) -> tuple[dict[str, list[Pair]
     return pairs, failed
 
 
+def figures_of(sealed: Path) -> tuple[Measured, ...]:
+    """Figures of the battery in a folder, by the planner that dealt it."""
+    name = read_mark(sealed)["dealt_by"]
+    if name not in FIGURES_BY:
+        raise InputError(f"must be among {', '.join(FIGURES_BY)}", where=f"{sealed / MARK}: dealt_by", value=name)
+    return FIGURES_BY[name]
+
+
 def judge(out: Path, sealed: Sequence[Path], rivals: dict[str, Path] | None = None) -> dict[str, Score]:
     """Scores of the answers: over all cases as ``all``, by kind, and of each rival over all by its name.
 
     A breakdown counts as a wrong answer, a refused case is not counted. Writes ``score.json``, ``score_NAME.json`` for
-    each of the others, ``score.txt`` with all figures, counts by kind and form and wrong answers, and SVG figures.
+    each of the others, ``score.txt`` with all figures, counts by kind and form and wrong answers, and SVG figures. The
+    file beside the ``sealed`` cases names the battery, which decides the figures.
     """
     truths = [read_truth(case) for case in sealed]
     ids = sorted({name for truth in truths for name in truth.candidates})
-    figures = WORLD_FIGURES if any(truth.laws for truth in truths) else FIGURES
-    figures = POOR_FIGURES if any(truth.flaws for truth in truths) else figures
-    figures = OUTSIDE_FIGURES if {truth.group for truth in truths} == {"unknown"} else figures
-    figures = SOLVED_FIGURES if any(truth.solved for truth in truths) else figures
+    figures = figures_of(sealed[0].parent)
     pairs, failed = _collected(out, truths)
     every_pair = [pair for some in pairs.values() for pair in some]
     unnamed = {f"{kind}, unnamed": [pair for pair in some if pair[0].no_data_sheet] for kind, some in pairs.items()}

@@ -60,7 +60,9 @@ def test_picture_and_numbers_of_the_first_page_are_those_of_the_example(tmp_path
         assert f"up to {float(largest):.0f} times the noise" in text
         assert f"{predicted} N m predicted, {measured} measured" in text
         assert f"says {base} (right)" in text
-    drawn, kept = ((folder / "missing_physics.svg").read_text(encoding="utf-8") for folder in (copy, ROOT / "examples"))
+    assert not (copy / "missing_physics.svg").exists()
+    folders = (copy / "out/missing_physics", ROOT / "examples")
+    drawn, kept = ((folder / "missing_physics.svg").read_text(encoding="utf-8") for folder in folders)
     words = re.findall(r"<!-- (.*?) -->", kept)
     assert "predicted, then measured" in words
     assert re.findall(r"<!-- (.*?) -->", drawn) == words

@@ -9,11 +9,13 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.collections import PathCollection
 
 import mixedlub as ml
 from mixedlub.cli import main
 from mixedlub.efficiency import read_gearbox
 from mixedlub.efficiency.table import duty_summary, loss_map, map_table
+from mixedlub.report.efficiency import _efficiency, _loss_torque, breakdown_figure, map_figure
 from profiles.errors import InputError
 from tests.efficiency.gearboxes import AFTER, PARTS, STAGE, gearbox, gearbox_file, written
 from tests.efficiency.planetary import SIMPLE, mesh, planetary_box
@@ -150,7 +152,7 @@ def test_the_command_draws_both_ends_of_the_oil(tmp_path: Path) -> None:
     ("conditions", "rule"),
     [
         ({"oil_temperature_C": [40.0, 40.0]}, "oil_temperature_C: each level once, but 40.0 appears again"),
-        ({"torque_Nm": [-50.0, 0.0]}, "no torque of the map is above 0"),
+        ({"torque_Nm": [0.0]}, "all torques of the map are 0"),
         ({"oil_temperature_C": []}, "oil_temperature_C"),
         ({"oil_temp_C": [40.0]}, "'oil_temperature_C'"),
     ],
@@ -158,3 +160,57 @@ def test_the_command_draws_both_ends_of_the_oil(tmp_path: Path) -> None:
 def test_wrong_conditions_are_refused(tmp_path: Path, conditions: dict[str, Any], rule: str) -> None:
     with pytest.raises(InputError, match=rule):
         gearbox(tmp_path, STAGE, conditions=COAST | conditions)
+
+
+CONSTANT = STAGE | {"effects": {}, "options": {"friction": "constant", "friction_coefficients": {"friction": 0.05}}}
+
+
+def test_a_map_of_coast_alone_has_the_cycle_of_its_strongest_torque(tmp_path: Path) -> None:
+    """The cycle is of the gearbox driven at its output, whose input power is that of the output plus all losses."""
+    levels = {"torque_Nm": [-200.0, -50.0], "speed_rpm": [500.0, 3000.0]}
+    box = gearbox(tmp_path, STAGE | PARTS, STAGE | AFTER, conditions=levels)
+    losses, at = box.map(), box.at_cycle()
+    chosen = (losses.torque == -200.0) & (losses.speed == losses.speed.max())
+    assert at.total() == pytest.approx(losses.total()[chosen], rel=1e-6)
+    assert at.input_power == pytest.approx(-losses.output_power[chosen], rel=1e-6)
+    assert main(["efficiency", str(tmp_path / "efficiency.toml"), "--out", str(tmp_path / "out"), "--no-figures"]) == 0
+    tables = {name: pd.read_csv(tmp_path / "out" / f"{name}.csv") for name in ("stages", "breakdown", "mesh_cycle")}
+    assert list(tables["stages"]["stage"]) == ["b", "a"]
+    assert set(tables["mesh_cycle"]["driving"]) == {"gear"}
+    assert tables["breakdown"]["loss_W"].iloc[-1] == pytest.approx(losses.total()[chosen][0], rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("torques", "points", "panels"),
+    [([0.0, 100.0], 3, ["input speed (rpm)"]), ([-100.0, 0.0, 100.0], 6, ["input speed (rpm)"])],
+)
+def test_single_levels_of_efficiency_are_points_of_the_map(
+    tmp_path: Path, torques: list[float], points: int, panels: list[str]
+) -> None:
+    """No torque beside 0 has an efficiency in between, so that areas of the map have no colour."""
+    conditions = {"torque_Nm": torques, "speed_rpm": [500.0, 1500.0, 2000.0]}
+    losses = gearbox(tmp_path, CONSTANT, conditions=conditions).map()
+    figure = map_figure("", losses)
+    assert figure is not None
+    shown = [axis for axis in figure.axes if axis.get_xlabel() == "input speed (rpm)"]
+    drawn = [
+        sum(len(one.get_offsets()) for one in axis.collections if isinstance(one, PathCollection)) for axis in shown
+    ]
+    assert drawn == [0, points, points]
+    assert [panel.across for panel in _efficiency(map_table(losses))] == panels
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_single_condition_has_its_point_and_its_bars(tmp_path: Path, sign: float) -> None:
+    conditions = {"torque_Nm": [sign * 100.0], "speed_rpm": [1500.0]}
+    losses = gearbox(tmp_path, CONSTANT, conditions=conditions).map()
+    table = map_table(losses)
+    (panel,) = _efficiency(table)
+    (only,) = panel.curves
+    assert only.y == pytest.approx([table["tooth_efficiency_percent"][0]])
+    assert 98.0 < only.y[0] < 100.0
+    ((lost,),) = (panel.curves for panel in _loss_torque(table))
+    assert (lost.style, lost.y) == ("o", pytest.approx([table["total_loss_W"][0] / (1500.0 * np.pi / 30.0)]))
+    for axis in breakdown_figure("", losses).axes:
+        assert sum(bar.get_height() for bar in axis.patches) == pytest.approx(losses.total()[0])
+        assert axis.get_ylim()[1] > losses.total()[0]

@@ -181,7 +181,7 @@ FRONT = "stages.a.bearings.front"
         ("conditions.speed_rpm", [0.0, 100.0], "speed_rpm: 0; a shaft at rest has no loss and no efficiency"),
         ("conditions.speed_rpm", [100.0, 100.0], "each level once, but 100.0 appears again"),
         ("conditions.speed_rpm", {"from": 1, "to": 9, "count": 100_000}, "at most 250000 conditions, not 300000"),
-        ("conditions.torque_Nm", [0.0], "no torque of the map is above 0"),
+        ("conditions.torque_Nm", [0.0], "all torques of the map are 0"),
         ("duty", DUTY | {"duration_h": [1.0]}, "the three lists go together, but have 2, 2 and 1 entries"),
         ("duty", DUTY | {"duration_h": [1.0, -1.0]}, "duration_h"),
         ("stages", {}, "stages"),

@@ -119,7 +119,13 @@ def test_no_balance_is_flagged(tmp_path: Path) -> None:
     assert balance.sump[~balance.found] == pytest.approx(150.0 + 273.15)
     assert "no balance up to 150 °C" in balance.findings[0].text
     tables, _ = thermal_tables(model(tmp_path, STAGE, thermal=weak), balance)
-    assert set(tables["thermal"]["balance"]) == {"converged", "none up to the highest temperature"}
+    table = tables["thermal"]
+    assert set(table["balance"]) == {"converged", "none up to the highest temperature"}
+    empty = table[table["balance"] != "converged"].drop(columns=["torque_Nm", "speed_rpm", "balance"])
+    assert set(empty.pop("validity")) == {"thermal_no_balance"}
+    assert empty.shape[1] >= 6
+    assert empty.isna().all(axis=None)
+    assert table[table["balance"] == "converged"]["sump_temperature_C"].max() < 150.0
 
 
 def test_warming_follows_the_exponential_of_one_heat_capacity(tmp_path: Path) -> None:
@@ -194,7 +200,8 @@ def test_teeth_without_a_temperature_are_not_in_balance(tmp_path: Path) -> None:
     balance = box.balance(np.array([0.0, 200.0]), np.array([150.0, 150.0]))
     assert list(balance.found) == [True, False]
     assert balance.teeth[1] > 0.1
-    _, notes = thermal_tables(box, balance)
+    tables, notes = thermal_tables(box, balance)
+    assert list(tables["thermal"]["total_loss_W"].isna()) == [False, True]
     assert ["1 of 2 conditions did not converge" in notes[0].text, "teeth do not pass" in notes[1].text] == [True, True]
 
 

@@ -238,6 +238,7 @@ def test_study_reads_the_part_with_the_base_friction_alone(tmp_path):
         ("part", "", ""),
         ("constant", "eyring_stress_MPa = 7.0", ""),
         ("law", "", 'friction = "schlenk"'),
+        ("stated", "", "[effects.shear_law]\npressure_exponent = 0.5\nrate_exponent = 0.0"),
     ):
         path = tmp_path / f"{name}.toml"
         path.write_text(STUDY.format(oil="own.toml", more=more, options=options), encoding="utf-8")
@@ -246,6 +247,18 @@ def test_study_reads_the_part_with_the_base_friction_alone(tmp_path):
     assert not found["constant"].effects
     assert not found["law"].effects
     assert any(one.code == "traction_unread" for one in found["law"].notes)
+    told = {one.code: one for one in found["stated"].notes if one.code.startswith("traction")}
+    assert told["traction_unread"].place == "effects.shear_law"
+    assert told["traction_read"].text.startswith("limiting stress by the traction part")
+    assert not any(one.code == "traction_unread" for one in found["part"].notes)
+
+
+def test_a_case_says_which_effects_take_the_place_of_the_part():
+    table = {name: values for name, values in rows(1).items() if not name.endswith("_sd")}
+    own = {"shear_law": {"pressure_exponent": 0.5, "rate_exponent": 0.0}, "limiting_shear_stress": {"coefficient": 0.1}}
+    case = case_of({**DISCS, "lubricant": {**OIL, "traction": PART}, "effects": own}, table)
+    told = [(one.code, one.place) for one in case.notes if one.code.startswith("traction")]
+    assert told == [("traction_unread", f"effects.{name}") for name in own]
 
 
 @pytest.mark.parametrize(

@@ -181,6 +181,16 @@ BAD = {
     "option": ({"options": {"path_points": 96}}, "options.path_points", "no meaning for bevel gears"),
     "locked": ({"driving": "gear", "options": constant(0.95)}, "driving", "only below"),
     "torque": ({"conditions": {"torque_Nm": [0.0]}}, "conditions.torque_Nm", "must be from 1e-09"),
+    "modulus": (
+        {"gears": {"youngs_modulus_GPa": [206e3, 206.0]}},
+        "gears.youngs_modulus_GPa",
+        "entry 1 must be from 0.1 to 2000 GPa; 206000 MPa would be 206 GPa",
+    ),
+    "ratio of Poisson": (
+        {"gears": {"poisson_ratio": [0.3, 0.5]}},
+        "gears.poisson_ratio",
+        "entry 2 must be from 0 to 0.4999",
+    ),
     "cutter": ({"gears": {"cutter_radius_mm": 2.0}}, "gears", ""),
 }
 

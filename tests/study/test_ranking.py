@@ -136,6 +136,19 @@ def test_the_band_of_an_uncertain_input_ends_where_the_input_does(name, sd, alte
     assert found["highest_power_loss"] == pytest.approx(np.maximum(*ends), rel=1e-6)
 
 
+@pytest.mark.parametrize(("sd", "cut"), [(0.05, True), (0.01, False)])
+def test_a_low_end_cut_at_no_friction_is_told_and_drawn_where_it_is(sd, cut, write_study):
+    """A standard deviation of 0.05 about 0.05: friction 0 is one below, and no draw is beyond."""
+    rough = {"surfaces": {"fine": FIRM}, **LEVELS, "conditions__speed_rpm": [500], "boundary_friction": 0.05}
+    found = run_study(read_study(write_study(**rough, uncertainty={"boundary_friction": sd})))
+    told = [one for one in found.findings if one.code == "band_end_cut"]
+    assert [(one.place, "61 %" in one.text) for one in told] == [("uncertainty.boundary_friction", True)] * cut
+    draws = loss_draws(found)[:, 0]
+    least = found["lowest_power_loss"].mean()
+    assert np.quantile(draws, 0.159 if cut else 0.05) == pytest.approx(least, rel=5e-3)
+    assert (draws.min() == pytest.approx(least, rel=1e-9)) == cut
+
+
 def test_a_ranking_has_intervals_with_bands_and_none_without(write_study):
     plain = ranking(run_study(read_study(write_study())))
     assert "place_low90" not in plain

@@ -13,7 +13,7 @@ from mixedlub.case.forward import Forward
 from mixedlub.chain.priors import Normal
 from mixedlub.cli import app
 from mixedlub.validation.answers import read_truth
-from mixedlub.validation.battery import plan
+from mixedlub.validation.battery import MARK, plan
 from mixedlub.validation.contact import Calibration, oil_of, start
 from mixedlub.validation.disclosure import (
     MINERAL,
@@ -238,6 +238,7 @@ def test_their_answers_are_counted_beside_all_films(cases, tmp_path):
         place = tmp_path / "answers" / folder.name
         place.mkdir(parents=True)
         says_none(folder, place)
+    (cases[0][0].parent / MARK).write_text('{"dealt_by": "plan"}')
     judge(tmp_path, [folder for folder, _ in cases])
     text = (tmp_path / "score.txt").read_text()
     (head,) = (line for line in text.splitlines() if line.startswith("by kind"))

@@ -1,6 +1,7 @@
 """Baselines, and the whole validation on a handful of cases."""
 
 import json
+import shutil
 import sys
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,12 +13,17 @@ from mixedlub.cli import app, main
 from mixedlub.validation import baselines
 from mixedlub.validation.answers import read_answer, read_truth
 from mixedlub.validation.baselines import BASELINES, recalibrate
-from mixedlub.validation.battery import generate, make, plan
+from mixedlub.validation.battery import MARK, generate, make, plan
 from mixedlub.validation.measures import held_out
 from mixedlub.validation.oracle import oracle
 from mixedlub.validation.outside import KINDS as UNLISTED
+from mixedlub.validation.outside import OUTSIDE_FIGURES
+from mixedlub.validation.poor import POOR_FIGURES
 from mixedlub.validation.rigs import CONTACTS, OTHERS
-from mixedlub.validation.run import BROKEN, Steady, judge, unsealed, validate
+from mixedlub.validation.run import BROKEN, Steady, figures_of, judge, unsealed, validate
+from mixedlub.validation.score import FIGURES
+from mixedlub.validation.solved.figures import SOLVED_FIGURES
+from mixedlub.validation.worlds.figures import WORLD_FIGURES
 from profiles.errors import InputError
 
 from .conftest import SEED
@@ -134,10 +140,52 @@ def test_the_truth_of_a_disc_explains_its_readings_and_no_rival_does(tmp_path):
     assert found["identifiable"]
 
 
+def _answered(dealt, tmp_path, mark):
+    """Copies of dealt cases beside another file of the battery, answered."""
+    for case in dealt:
+        shutil.copytree(case, tmp_path / "sealed" / case.name)
+        (tmp_path / "answers" / case.name).mkdir(parents=True)
+        says_none(case, tmp_path / "answers" / case.name)
+    if mark is not None:
+        (tmp_path / "sealed" / MARK).write_text(json.dumps(mark))
+    return [tmp_path / "sealed" / case.name for case in dealt]
+
+
+NAMED = {
+    "": FIGURES,
+    "plan": FIGURES,
+    "plan_forms": FIGURES,
+    "plan_worlds": WORLD_FIGURES,
+    "plan_poor": POOR_FIGURES,
+    "plan_outside": OUTSIDE_FIGURES,
+    "plan_solved": SOLVED_FIGURES,
+}
+
+
+@pytest.mark.parametrize("name", list(NAMED))
+def test_the_file_of_a_battery_decides_its_figures(tmp_path, name):
+    (tmp_path / MARK).write_text(json.dumps({"dealt_by": name} if name else {"seed": 3}))
+    assert figures_of(tmp_path) is NAMED[name]
+
+
+def test_truths_alone_do_not_decide_the_figures(dealt, tmp_path):
+    """No case follows a law, and the figures of laws are scored, since the file says so."""
+    assert json.loads((dealt[0].parent / MARK).read_text())["dealt_by"] == "plan"
+    rows = judge(tmp_path, _answered(dealt, tmp_path, {"dealt_by": "plan_worlds"}))["all"].rows
+    assert [row.key for row in rows[: len(WORLD_FIGURES)]] == [figure.key for figure in WORLD_FIGURES]
+
+
+@pytest.mark.parametrize(("mark", "said"), [(None, "battery.json"), ({"dealt_by": "plan_any"}, "plan_solved")])
+def test_a_battery_without_a_known_name_is_refused(dealt, tmp_path, mark, said):
+    with pytest.raises(InputError, match=said):
+        judge(tmp_path, _answered(dealt[:2], tmp_path, mark))
+
+
 @pytest.mark.long
 def test_counts_by_kind_wrong_answers_and_break_downs(named_orders, tmp_path):
     with without_rivals():
         dealt = [tmp_path / make(SEED, place, order, tmp_path) for place, order in enumerate(named_orders.values())]
+    (tmp_path / MARK).write_text('{"dealt_by": "plan"}')
     for folder in dealt:
         place = tmp_path / "answers" / folder.name
         place.mkdir(parents=True)
@@ -202,7 +250,7 @@ def test_a_kind_without_other_laws_is_refused(tmp_path, capsys):
     assert main(["prove", "--worlds", "--kinds", "friction_map", "--out", str(tmp_path / "out")]) == 2
     said = capsys.readouterr().err
     assert "friction_map" in said
-    assert "no other law" in said
+    assert "are dealt for gear_pair" in said
 
 
 def test_full_physics_is_a_battery_of_gears_and_discs(tmp_path, capsys):

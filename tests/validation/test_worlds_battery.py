@@ -11,7 +11,7 @@ from mixedlub.case.folder import read_case
 from mixedlub.case.forward import Forward
 from mixedlub.cli import main
 from mixedlub.validation.answers import read_truth
-from mixedlub.validation.battery import make
+from mixedlub.validation.battery import MARK, make
 from mixedlub.validation.planted import NAMED, OUTSIDE
 from mixedlub.validation.rig import LAWS
 from mixedlub.validation.rigs import CLASSES, discs
@@ -97,7 +97,7 @@ def test_the_same_seed_deals_the_same_worlds(orders):
 
 
 def test_kinds_without_laws_and_too_few_cases_are_refused():
-    with pytest.raises(InputError, match="no other law"):
+    with pytest.raises(InputError, match="are dealt for gear_pair, disc"):
         plan_worlds(1, 40, ("disc", "friction_map"))
     with pytest.raises(InputError, match="at least 25"):
         plan_worlds(1, 24)
@@ -245,6 +245,7 @@ def test_judged_folders_have_the_figures_of_worlds(dealt, tmp_path):
     for folder in cases:
         (tmp_path / "answers" / folder.name).mkdir(parents=True)
         says_none(folder, tmp_path / "answers" / folder.name)
+    (cases[0].parent / MARK).write_text('{"dealt_by": "plan_worlds"}')
     found = judge(tmp_path, cases)["all"]
     assert {row.key for row in found.rows} >= {figure.key for figure in WORLD_FIGURES}
     assert found["tied"].value == 0.0

@@ -13,7 +13,7 @@ from mixedlub.gear import GearPair
 from mixedlub.gear.analysis.tooth_contact import MeshConditions
 from mixedlub.gear.build import gear_pair, sharing
 from mixedlub.gear.mesh import Sharing
-from mixedlub.schema.section import Number, Section, Whole, key
+from mixedlub.schema.section import Flag, Number, Section, Whole, key
 from mixedlub.schema.system_file import Gears
 from mixedlub.schema.toml_file import parse, read_toml
 from profiles.errors import InputError
@@ -37,9 +37,7 @@ class MeshTable(Section):
     slices: Whole | None = key(
         "slices of the face; left out: what the load sharing needs", None, example=21, ge=1, le=400
     )
-    edge_contact: Annotated[bool, Field(strict=True)] = key(
-        'model "ldp"; true: edges of tips may touch beyond the path of contact', False
-    )
+    edge_contact: Flag = key('model "ldp"; true: edges of tips may touch beyond the path of contact', False)
     pitch_deviation_um: Annotated[tuple[Number, ...], Field(min_length=1, max_length=200)] = key(
         'model "ldp": how far each of some successive tooth pairs stands back; the list repeats', (0.0,)
     )

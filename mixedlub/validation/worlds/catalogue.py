@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -91,16 +91,20 @@ def laws_on(rig: Rig) -> dict[str, tuple[Law, ...]]:
     return {name: some for name, some in found.items() if some}
 
 
+def candidates(pool: Mapping[str, Sequence[Law]], name: str, ids: Sequence[str]) -> list[Law]:
+    """Laws of an id in the pool of a rig that can be followed beside laws of the other ids."""
+    some = [law for law in pool.get(name, ()) if law.fits(ids)]
+    return [law for law in some if law.average] if name == SHEAR and set(TOGETHER) <= set(ids) else some
+
+
 def drawn(rng: np.random.Generator, rig: Rig, ids: Sequence[str]) -> World | None:
     """A law of each id with its knobs; None if the rig lacks any of them."""
     pool = laws_on(rig)
     if not set(ids) <= set(pool):
         return None
-    together = set(TOGETHER) <= set(ids)
     world = []
     for name in ids:
-        some = [law for law in pool[name] if law.fits(ids)]
-        some = [law for law in some if law.average] if together and name == SHEAR else some
+        some = candidates(pool, name, ids)
         if not some:
             return None
         law = some[int(rng.integers(len(some)))]

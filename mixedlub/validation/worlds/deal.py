@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -19,10 +19,10 @@ from mixedlub.validation.battery import (
     sizes,
     surveyed,
 )
-from mixedlub.validation.rig import ASPERITIES, BALANCE, LAWS, MIXTURE, Rig
+from mixedlub.validation.rig import ASPERITIES, BALANCE, LAWS, MIXTURE, Law, Rig
 from mixedlub.validation.rigs import CLASSES, KINDS, Family, Partners
 from mixedlub.validation.sample_case import Order
-from mixedlub.validation.worlds.catalogue import OF_KIND, SPOILT, TOGETHER, has_contact, laws_on
+from mixedlub.validation.worlds.catalogue import OF_KIND, SPOILT, TOGETHER, candidates, has_contact, laws_on
 from profiles.errors import InputError
 
 SHARES = dict(zip(CLASSES, (0.28, 0.36, 0.06, 0.05, 0.25)))
@@ -31,6 +31,10 @@ HOW_MANY = (0.5, 0.3, 0.2)
 """Shares of cases with one, two and three laws."""
 FULL_PHYSICS, ANY_SIZE = 4, 4
 """Every fourth case with at most one effect has all of ``TOGETHER``; in every fourth the misfit may be small."""
+
+
+Pool = Mapping[str, Sequence[Law]]
+"""Laws that a rig can follow, by id."""
 
 
 def worlds_of(kinds: Sequence[str]) -> tuple[str, ...]:
@@ -74,11 +78,32 @@ def _together(rng: np.random.Generator, order: Order, ids: Sequence[str]) -> boo
     return order.label in ("none", "single") and set(TOGETHER) <= set(ids) - barred
 
 
+def _possible(order: Order, laws: Sequence[str], rigs: Sequence[tuple[Rig, Pool]]) -> bool:
+    """Whether a rig is open to the effects of an order and can follow the laws at once."""
+    for rig, pool in rigs:
+        forms = rig.outside if order.label == "unknown" else rig.forms
+        opened = {form.id for form in forms if form.rarity > 0}
+        if set(order.effects) <= opened and all(candidates(pool, name, laws) for name in laws):
+            return True
+    return False
+
+
+def _allowed(order: Order, laws: tuple[str, ...], ids: Sequence[str], rigs: Sequence[tuple[Rig, Pool]]) -> Order:
+    """Order with the laws; with one of them, or else another, where no rig can follow them beside its effects."""
+    free = [name for name in ids if not any(name in SPOILT.get(effect, ()) for effect in order.effects)]
+    for some in (laws, *((name,) for name in (*laws, *free))):
+        if _possible(order, some, rigs):
+            return replace(order, laws=some)
+    effects = " and ".join(order.effects)
+    raise InputError(f"no rig of this kind has {effects} and follows another law", where="kinds", value=order.kind)
+
+
 def _orders(rng: np.random.Generator, family: Family, seed: int, cases: int) -> list[Order]:
     rigs: dict[str, list[Rig]] = {kind: [r for r in drawn_rigs(kind, seed) if has_contact(r)] for kind in family.kinds}
     surveys = {kind: _named(surveyed(some)) for kind, some in rigs.items()}
     partners = {kind: _pairs(kind, list(surveys[kind][0])) for kind in family.kinds}
-    ids = {kind: sorted({name for rig in some for name in laws_on(rig)}) for kind, some in rigs.items()}
+    pools = {kind: [(rig, laws_on(rig)) for rig in some] for kind, some in rigs.items()}
+    ids = {kind: sorted({name for _, pool in some for name in pool}) for kind, some in pools.items()}
     family = replace(family, classes=SHARES)
     orders = ordered(rng, family, contents(rng, family, cases, surveys, partners))
     leads = {kind: iter(deck(rng, some, [1.0] * len(some), len(orders))) for kind, some in ids.items()}
@@ -89,14 +114,19 @@ def _orders(rng: np.random.Generator, family: Family, seed: int, cases: int) -> 
             full += 1
             if full % FULL_PHYSICS == 0:
                 laws = tuple(TOGETHER[i] for i in rng.permutation(len(TOGETHER)))
-        made.append(replace(order, laws=laws, strong=place % ANY_SIZE != 0, no_data_sheet=False))
+        order = replace(order, strong=place % ANY_SIZE != 0, no_data_sheet=False)
+        made.append(_allowed(order, laws, ids[order.kind], pools[order.kind]))
     return made
 
 
 def plan_worlds(seed: int, cases: int, kinds: Sequence[str] = tuple(OF_KIND)) -> list[Order]:
     """Orders of a battery of rigs that follow other laws: half of it gears and discs, if both are dealt."""
     if lawless := [kind for kind in kinds if kind not in OF_KIND]:
-        raise InputError("no other law is published of the base model of this kind", where="kinds", value=lawless)
+        raise InputError(
+            f"other laws than the base model's are dealt for {', '.join(OF_KIND)}; leave out the others",
+            where="kinds",
+            value=", ".join(lawless),
+        )
     if cases < fewest(kinds):
         raise InputError(f"a battery of these kinds has at least {fewest(kinds)} cases", where="cases", value=cases)
     chosen = families(kinds)
