@@ -167,11 +167,12 @@ class Diagnosis:
         if self.handed_on == LAW and self.law is not None:
             law = self.law
             with threadpool_limits(limits=1, user_api="blas"):
-                own = averaged(law.search, law.posterior, dict(law.refined), p.table)
-            # Beyond its range a power may explode, while the smooth discrepancy fades.
+                own = averaged(law.search, law.alone, dict(law.refined), p.table)
+                # Laws that agree where there are readings differ beyond them.
+                several = averaged(law.search, law.one_of_several, dict(law.refined), p.table)
             names = ("predicted", "low90", "high90")
             inside = law.holds(p.table)
-            return replace(p, **{n: np.where(inside, getattr(own, n), getattr(p, n)) for n in names})
+            return replace(p, **{n: np.where(inside, getattr(own, n), getattr(several, n)) for n in names})
         if self.handed_on == CALIBRATION and self.posterior.verdict != NOTHING:
             return by_calibration(self.search, p, self.heldout.before)
         return p

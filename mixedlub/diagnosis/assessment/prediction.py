@@ -203,7 +203,10 @@ class NewRows:
         return shared
 
     def of_discrepancy(self) -> Prediction:
-        """Prediction of the base fit plus the discrepancy, which vanishes far from the recorded conditions."""
+        """Prediction of the base fit plus the discrepancy.
+
+        Far from the recorded conditions its mean vanishes and its variance is the variance before any reading.
+        """
         search = self.search
         discrepancy, base = search.discrepancy, search.discrepancy.base
         run = self.problem.run(base.explanation, discrepancy.z)
@@ -215,6 +218,7 @@ class NewRows:
         all_columns = np.hstack([slopes, shared, form])
         mean = calibrated + self.problem.sd * (form @ discrepancy.fit.coefficients[-form.shape[1] :])
         variance = np.einsum("ij,jk,ik->i", all_columns, discrepancy.covariance, all_columns) + self._phase_variance()
+        variance += discrepancy.best.faded(search.space, search.values, self.values, scalings)
         spread = self._shared(all_columns, discrepancy.covariance)
         return Prediction(mean, variance * self.problem.sd**2, calibrated, shared=spread)
 
