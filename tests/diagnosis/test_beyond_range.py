@@ -15,25 +15,34 @@ from mixedlub.diagnosis.discrepancy.smooth import DiscrepancyForm
 from mixedlub.diagnosis.explanation import DISCREPANCY
 from mixedlub.recording.conditions import Coordinate, Coordinates
 
+NODES = np.linspace(0.0, 1.0, 12)
+SPACE = Coordinates(tuple(Coordinate(name, NODES) for name in ("load_N", "speed_rpm")))
+RECORDED = [np.tile(NODES, 12), np.repeat(NODES, 12)]
 
-@pytest.mark.parametrize("interactions", [False, True])
-def test_a_smooth_function_has_its_prior_variance_far_from_the_readings(interactions: bool) -> None:
-    nodes = np.linspace(0.0, 1.0, 12)
-    space = Coordinates(tuple(Coordinate(name, nodes) for name in ("load_N", "speed_rpm")))
-    form = DiscrepancyForm((), 0.7, 3.0, "reading", interactions)
-    recorded = [np.tile(nodes, 12), np.repeat(nodes, 12)]
-    at = [np.array([0.4, 2.0, 9.0, 9.0]), np.array([0.7, 0.7, 0.7, -9.0])]
-    scalings = {"reading": np.full(4, 2.0)}
-    faded = form.faded(space, recorded, at, scalings)
-    held = (form.columns(space, at, scalings) ** 2).sum(axis=1)
+
+def test_a_smooth_function_is_as_uncertain_as_an_exact_gaussian_process() -> None:
+    form = DiscrepancyForm((), 0.08, 3.0, "reading", False)
+    at = [np.array([NODES[3], 1.04, 1.08, 9.0, 9.0]), np.array([0.0, 0.0, 0.0, 0.0, -9.0])]
+    faded = form.faded(SPACE, RECORDED, at, {"reading": np.full(5, 2.0)})
+    within = np.exp(-0.5 * ((NODES[:, None] - NODES) / 0.08) ** 2)
+    there = np.exp(-0.5 * ((at[0][1:3, None] - NODES) / 0.08) ** 2)
+    # The function of the load is half of the variance of 36; the other half is known at a recorded speed.
+    exact = 18.0 * (1.0 - np.einsum("ij,ji->i", there, np.linalg.solve(within, there.T)))
+    assert faded == pytest.approx([0.0, *exact, 18.0, 36.0], rel=2e-3, abs=1e-3)
+
+
+def test_products_of_two_conditions_have_their_prior_variance_far_from_the_readings() -> None:
+    form = DiscrepancyForm((), 0.7, 3.0, "reading", True)
+    at, scalings = [np.array([0.4, 9.0]), np.array([0.7, -9.0])], {"reading": np.full(2, 2.0)}
+    faded = form.faded(SPACE, RECORDED, at, scalings)
+    held = (form.columns(SPACE, at, scalings) ** 2).sum(axis=1)
     assert faded[0] == 0.0
-    assert held[-1] + faded[-1] == pytest.approx(36.0, rel=0.01)
-    if not interactions:
-        # One of two functions of equal variance is known still; the other is that of an exact Gaussian process.
-        covariance = np.exp(-0.5 * ((nodes[:, None] - nodes) / 0.7) ** 2) + 1e-6 * np.eye(12)
-        row = np.exp(-0.5 * ((2.0 - nodes) / 0.7) ** 2)
-        exact = 18.0 * (1.0 - row @ np.linalg.solve(covariance, row))
-        assert faded[1:3] == pytest.approx([exact, 18.0], rel=0.03)
+    assert held[1] + faded[1] == pytest.approx(36.0, rel=0.01)
+
+
+def test_peaks_and_steps_do_not_fade() -> None:
+    step = DiscrepancyForm(("load_N",), 0.0, 3.0, "reading", False, at=0.5)
+    assert step.faded(SPACE, RECORDED, [np.full(1, 9.0)] * 2, {"reading": np.ones(1)}).tolist() == [0.0]
 
 
 def test_the_interval_of_an_average_leaves_five_percent_on_either_side() -> None:
@@ -65,15 +74,17 @@ def test_beyond_its_range_a_law_is_one_of_several(steep: Diagnosis) -> None:
     assert sum(law.weights.values()) == pytest.approx(1.0)
     alike = sum(rival.equivalent for rival in law.rivals)
     assert len(law.weights) == 2 + alike
-    assert 0.0 < law.weights[DISCREPANCY] < 0.5 < law.weights[DISCREPANCY] + sum(
-        share for key, share in law.weights.items() if key != DISCREPANCY
+    assert (
+        0.0
+        < law.weights[DISCREPANCY]
+        < 0.5
+        < law.weights[DISCREPANCY] + sum(share for key, share in law.weights.items() if key != DISCREPANCY)
     )
     rows = steep.search.problem.rows
     row = {n: v[:1] for n, v in rows.columns.items() if n not in ("run", steep.case.quantity)}
     at = {n: np.repeat(v, 2) for n, v in row.items()} | {"speed_rpm": np.array([2500.0, 3200.0])}
     p = averaged(steep.search, steep.posterior, steep.refined, conditions_for(steep.given, at))
     handed = steep.handed(p)
-    planted = p.calibrated / p.calibrated
     planted = p.base * np.exp(0.2 * (at["speed_rpm"] / 2500.0) ** 3)
     assert law.holds(p.table).tolist() == [True, False]
     assert np.all(handed.low90 <= planted)

@@ -205,7 +205,7 @@ class NewRows:
     def of_discrepancy(self) -> Prediction:
         """Prediction of the base fit plus the discrepancy.
 
-        Far from the recorded conditions its mean vanishes and its variance is the variance before any reading.
+        Far from the recorded conditions its mean vanishes, and its interval is the one before any reading.
         """
         search = self.search
         discrepancy, base = search.discrepancy, search.discrepancy.base
@@ -218,9 +218,9 @@ class NewRows:
         all_columns = np.hstack([slopes, shared, form])
         mean = calibrated + self.problem.sd * (form @ discrepancy.fit.coefficients[-form.shape[1] :])
         variance = np.einsum("ij,jk,ik->i", all_columns, discrepancy.covariance, all_columns) + self._phase_variance()
-        variance += discrepancy.best.faded(search.space, search.values, self.values, scalings)
         spread = self._shared(all_columns, discrepancy.covariance)
-        return Prediction(mean, variance * self.problem.sd**2, calibrated, shared=spread)
+        faded = discrepancy.best.faded(search.space, search.values, self.values, scalings)
+        return Prediction(mean, variance * self.problem.sd**2, calibrated, faded * self.problem.sd**2, spread)
 
     def _phase_variance(self) -> np.ndarray:
         """Variance of a wave due to its unknown phase, in units of the noise."""

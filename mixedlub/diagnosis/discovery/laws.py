@@ -141,8 +141,7 @@ def find_law(search: Search, levels: LevelsOut) -> FoundLaw | None:
         return None
     forms = _fitted(search, every, _kinds(tried, len(every)))
     elsewhere = [c for w in forms[:FORMS_ELSEWHERE] for c in _on_other_quantities(w, search, tried)]
-    least = max(FIT_GAIN, tried[0].score - LISTED_BEHIND)
-    replacing = [c for c in replacements(search, present) if c.score > least][:REPLACEMENTS_FITTED]
+    replacing = _leading_replacements(replacements(search, present), max(FIT_GAIN, tried[0].score - LISTED_BEHIND))
     weighed = [*forms, *_fitted(search, every, [*elsewhere, *replacing], len(forms))]
     weighed = sorted((w for w in weighed if w.log_weight > search.null_fit.evidence + FIT_GAIN), key=_by_weight)
     if not weighed:
@@ -251,6 +250,13 @@ def _kinds(tried: list[Candidate], count: int) -> list[Candidate]:
             ranked = sorted(groups.get(name, []), key=lambda c: -c.score - price(c, count))
             found += ranked[: max(1, round(share * most))]
     return found
+
+
+def _leading_replacements(ranked: list[Candidate], least: float) -> list[Candidate]:
+    """Replacements to be fitted: the best above a score, and the best one with fewer powers."""
+    near = [c for c in ranked if c.score > least][:REPLACEMENTS_FITTED]
+    fewer = [c for c in ranked if near and c.target is near[0].target and set(c.kind) < set(near[0].kind)]
+    return [*near, *(c for c in fewer if c not in near)]
 
 
 def _group(c: Candidate) -> str:

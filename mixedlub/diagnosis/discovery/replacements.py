@@ -20,7 +20,7 @@ from mixedlub.diagnosis.discovery.screening import (
     Whitened,
     constant_term,
 )
-from mixedlub.diagnosis.discovery.terms import Term, Variable, single_terms
+from mixedlub.diagnosis.discovery.terms import Variable, single_terms
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.search import Search, spread_rows
 from mixedlub.diagnosis.settings.assessment import VARIED_FROM
@@ -52,19 +52,17 @@ def replacements(search: Search, every: Sequence[Variable]) -> list[Candidate]:
         if held is None:
             continue
         slope = held.target.column[rows]
-        for few in ((), *((t,) for t in powers), *combinations(powers, 2)):
+        others = [t for t in powers if name not in t.variables[0]]
+        for few in ((), *((t,) for t in others), *combinations(others, 2)):
             terms = (constant_term(problem.y.size), *few)
             sds = np.array([LOG_FACTOR_SD, *(EXPONENT_SD for _ in few)])
             columns = np.column_stack([t.values[rows] * slope for t in terms]) * sds
             own = Whitened(np.hstack([fixed, columns]), weight, base.anchor[rows] - held.change[rows])
             amplitudes = sds * (columns.T @ own.white_target)
-            score = 0.5 * (before - own.misfit) - 0.5 * own.log_volume_over(fixed) - _choices(few, len(powers))
+            choices = len(few) * np.log(max(len(others), 1))
+            score = 0.5 * (before - own.misfit - own.log_volume_over(fixed)) - choices
             found.append(Candidate(held.target, terms, tuple(map(float, amplitudes)), float(score)))
     return sorted(found, key=lambda c: -c.score)
-
-
-def _choices(few: Sequence[Term], count: int) -> float:
-    return len(few) * float(np.log(max(count, 1)))
 
 
 def _held(problem: Problem, run: Run, name: str) -> _Constant | None:
