@@ -168,7 +168,7 @@ class Diagnosis:
             law = self.law
             with threadpool_limits(limits=1, user_api="blas"):
                 own = averaged(law.search, law.alone, dict(law.refined), p.table)
-                # Laws that agree where there are readings differ beyond them.
+                # Laws that agree within the readings may differ beyond them.
                 several = averaged(law.search, law.one_of_several, dict(law.refined), p.table)
             names = ("predicted", "low90", "high90")
             inside = law.holds(p.table)

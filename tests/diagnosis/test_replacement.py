@@ -1,4 +1,4 @@
-"""A law that takes the place of a quantity: found where a factor would have to undo what the base model makes of it."""
+"""A law that takes the place of a quantity: found where a factor would have to undo the base model."""
 
 from __future__ import annotations
 

@@ -205,7 +205,7 @@ class NewRows:
     def of_discrepancy(self) -> Prediction:
         """Prediction of the base fit plus the discrepancy.
 
-        Far from the recorded conditions its mean vanishes, and its interval is the one before any reading.
+        Far from the recorded conditions its mean vanishes, and its interval is as wide as before any reading.
         """
         search = self.search
         discrepancy, base = search.discrepancy, search.discrepancy.base

@@ -48,7 +48,7 @@ def law_data(name: str, c: Candidate, sizes: np.ndarray, ranges: Mapping[str, li
         "expression": body if c.target.form == ADD else _as_factor(c, parts),
         "parameters": parameters,
         "source": SOURCE,
-        # What a replacement does not read it undoes, as far as it was seen.
+        # A replacement also undoes the conditions that it does not read, as far as they were recorded.
         "range": {name: ends for name, ends in ranges.items() if name in read or c.target.form == REPLACE},
     }
 

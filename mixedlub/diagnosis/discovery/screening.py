@@ -47,7 +47,7 @@ FACTOR, ADD, REPLACE = "factor", "add", "replace"
 class Target:
     """A quantity, the form of the change, and the change of each reading in sd by a unit of it.
 
-    ``constant``: what takes the place of the quantity before any term, in SI.
+    ``constant``: value in SI in place of the quantity.
     """
 
     quantity: str
