@@ -165,13 +165,13 @@ class Diagnosis:
     def handed(self, p: Predicted) -> Predicted:
         """Predictions by the model that is handed on; the mismatch remains as answered."""
         if self.handed_on == LAW and self.law is not None:
-            law = self.law
+            law, refined, inside = self.law, dict(self.law.refined), self.law.holds(p.table)
             with threadpool_limits(limits=1, user_api="blas"):
-                own = averaged(law.search, law.posterior, dict(law.refined), p.table)
-            # Beyond its range a power may explode, while the smooth discrepancy fades.
+                own = averaged(law.search, law.alone, refined, p.table)
+                # Laws that agree within the readings may differ beyond them.
+                several = own if inside.all() else averaged(law.search, law.one_of_several, refined, p.table)
             names = ("predicted", "low90", "high90")
-            inside = law.holds(p.table)
-            return replace(p, **{n: np.where(inside, getattr(own, n), getattr(p, n)) for n in names})
+            return replace(p, **{n: np.where(inside, getattr(own, n), getattr(several, n)) for n in names})
         if self.handed_on == CALIBRATION and self.posterior.verdict != NOTHING:
             return by_calibration(self.search, p, self.heldout.before)
         return p

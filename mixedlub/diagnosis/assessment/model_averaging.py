@@ -11,7 +11,7 @@ from mixedlub.diagnosis.assessment.prediction import NewRows, Prediction, Refine
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.likelihood import outlier_chance
 from mixedlub.diagnosis.search.search import Search
-from mixedlub.diagnosis.settings.assessment import MOST_AVERAGED, NEGLIGIBLE
+from mixedlub.diagnosis.settings.assessment import HALVINGS, MOST_AVERAGED, NEGLIGIBLE
 from mixedlub.diagnosis.settings.inference import NINETY
 from mixedlub.schema.table import Table
 
@@ -69,18 +69,40 @@ def averaged(search: Search, judged: Posterior, refined: dict[Explanation, Refin
     share = share / share.sum(axis=0)
     means, variances = np.where(is_finite, means, 0.0), np.where(is_finite[:, None], variances, 0.0)
     mean = each[NOTHING].mean if judged.verdict == NOTHING else (share * means).sum(axis=0)
-    between = (share * (means - mean) ** 2).sum(axis=0)
-    within = (share[:, None] * variances).sum(axis=0)
     sd, shared_variance = rows.noise_at(mean)
-    below, above = NINETY * np.sqrt(sd**2 + shared_variance + within + between)
+    low, high = ends_of_mixture(share, means, np.sqrt(variances + sd**2 + shared_variance))
     at_verdict = each[judged.verdict].base
     mismatch = np.zeros(mean.size) if judged.verdict == NOTHING else (mean - at_verdict) / sd
     nominal = rows.forward.predict()
-    ends = problem.inverse(mean - below), problem.inverse(mean + above)
+    ends = problem.inverse(np.minimum(low, mean)), problem.inverse(np.maximum(high, mean))
     size = np.abs(problem.inverse(mean)) if problem.case.kind.logarithmic else 1.0
     return Predicted(
         table, nominal, problem.inverse(calibrated), problem.inverse(mean), *ends, mismatch, np.asarray(sd * size)
     )
+
+
+def ends_of_mixture(share: np.ndarray, means: np.ndarray, sds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Ends of the 90 % interval of a mixture of normal distributions in each row.
+
+    ``share`` and ``means`` are (parts, rows), ``sds`` (parts, 2, rows) for the lower and the upper end.
+
+    >>> one, low_high = np.ones((1, 1)), np.ones((1, 2, 1))
+    >>> [end.round(3).tolist() for end in ends_of_mixture(one, one, low_high)]
+    [[-0.645], [2.645]]
+    """
+    from scipy.special import ndtr
+
+    found = []
+    for sign, sd in ((-1.0, sds[:, 0]), (1.0, sds[:, 1])):
+        # The end of a mixture lies between the ends of its parts.
+        off = sign * means + NINETY * sd
+        inner, outer = off.min(axis=0), off.max(axis=0)
+        for _ in range(HALVINGS):
+            middle = 0.5 * (inner + outer)
+            beyond = (share * ndtr((sign * means - middle) / sd)).sum(axis=0) > ndtr(-NINETY)
+            inner, outer = np.where(beyond, middle, inner), np.where(beyond, outer, middle)
+        found.append(sign * 0.5 * (inner + outer))
+    return found[0], found[1]
 
 
 def outlier_chances(search: Search, judged: Posterior, refined: dict[Explanation, Refined]) -> np.ndarray:

@@ -203,7 +203,10 @@ class NewRows:
         return shared
 
     def of_discrepancy(self) -> Prediction:
-        """Prediction of the base fit plus the discrepancy, which vanishes far from the recorded conditions."""
+        """Prediction of the base fit plus the discrepancy.
+
+        Far from the recorded conditions its mean vanishes, and its interval is as wide as before any reading.
+        """
         search = self.search
         discrepancy, base = search.discrepancy, search.discrepancy.base
         run = self.problem.run(base.explanation, discrepancy.z)
@@ -216,7 +219,8 @@ class NewRows:
         mean = calibrated + self.problem.sd * (form @ discrepancy.fit.coefficients[-form.shape[1] :])
         variance = np.einsum("ij,jk,ik->i", all_columns, discrepancy.covariance, all_columns) + self._phase_variance()
         spread = self._shared(all_columns, discrepancy.covariance)
-        return Prediction(mean, variance * self.problem.sd**2, calibrated, shared=spread)
+        faded = discrepancy.best.faded(search.space, search.values, self.values, scalings)
+        return Prediction(mean, variance * self.problem.sd**2, calibrated, faded * self.problem.sd**2, spread)
 
     def _phase_variance(self) -> np.ndarray:
         """Variance of a wave due to its unknown phase, in units of the noise."""

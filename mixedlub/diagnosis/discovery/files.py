@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from mixedlub.chain.effect import Effect
-from mixedlub.diagnosis.discovery.screening import ADD, QUANTITIES, Candidate
+from mixedlub.diagnosis.discovery.screening import ADD, QUANTITIES, REPLACE, Candidate
 from mixedlub.diagnosis.settings.discovery import ADDITION_SD, EXPONENT_SD, LOG_FACTOR_SD
 from mixedlub.own_laws import law_of_text
 from mixedlub.schema.toml_file import to_toml
@@ -28,7 +28,7 @@ def law_data(name: str, c: Candidate, sizes: np.ndarray, ranges: Mapping[str, li
     for i, (term, amplitude) in enumerate(zip(c.terms, c.amplitudes, strict=True)):
         letter = LETTERS[i]
         sd = _amplitude_sd(c, i, sizes)
-        null = 0.0
+        null = None if c.target.form == REPLACE else 0.0
         parameters[letter] = _parameter(amplitude, {"normal": [0.0, sd]}, null)
         for own, start in term.start.items():
             kind, first, second = term.priors[own]
@@ -48,7 +48,8 @@ def law_data(name: str, c: Candidate, sizes: np.ndarray, ranges: Mapping[str, li
         "expression": body if c.target.form == ADD else _as_factor(c, parts),
         "parameters": parameters,
         "source": SOURCE,
-        "range": {name: ends for name, ends in ranges.items() if name in read},
+        # A replacement also undoes the conditions that it does not read, as far as they were recorded.
+        "range": {name: ends for name, ends in ranges.items() if name in read or c.target.form == REPLACE},
     }
 
 
@@ -70,8 +71,8 @@ def _amplitude_sd(c: Candidate, place: int, sizes: np.ndarray) -> float:
 
 
 def _as_factor(c: Candidate, parts: list[str]) -> str:
-    """The factor with the sum of the parts as its logarithm; powers as such."""
-    factors, rest = [], []
+    """The factor with the sum of the parts as its logarithm; powers as such, behind the constant of a replacement."""
+    factors, rest = [f"{c.target.constant:.4g}"] if c.target.form == REPLACE else [], []
     for i, (term, part) in enumerate(zip(c.terms, parts, strict=True)):
         text = part.partition("*")[2]
         if term.shape in ("power", "threshold"):

@@ -16,7 +16,8 @@ from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.assessment.prediction import Refined, refine
 from mixedlub.diagnosis.discovery.files import LETTERS, as_effect, law_data, words_of
 from mixedlub.diagnosis.discovery.past_terms import past_terms, past_variables
-from mixedlub.diagnosis.discovery.screening import ADD, Candidate, Target, price, screened
+from mixedlub.diagnosis.discovery.replacements import replacements
+from mixedlub.diagnosis.discovery.screening import ADD, REPLACE, Candidate, Target, price, screened
 from mixedlub.diagnosis.discovery.terms import Variable, variables
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.likelihood import outlier_chance
@@ -33,6 +34,7 @@ from mixedlub.diagnosis.settings.discovery import (
     LISTED_BEHIND,
     MOST_EXCESS,
     PROVED,
+    REPLACEMENTS_FITTED,
     RIVALS,
     SAME_WITHIN,
 )
@@ -74,7 +76,8 @@ class Rival:
 class FoundLaw:
     """A law that predicts left-out levels better than calibration, with a search in which it is an explanation.
 
-    ``data``: its file; ``ranges``: ends of its variables.
+    ``data``: its file; ``ranges``: ends of its variables; ``weights``: probabilities of the law, of laws that cannot be
+    told apart from it, and of the discrepancy.
     """
 
     effect: Effect
@@ -85,6 +88,7 @@ class FoundLaw:
     heldout: HeldOut
     rivals: tuple[Rival, ...]
     ranges: Mapping[str, tuple[float, float]]
+    weights: Mapping[Explanation, float]
 
     def holds(self, table: Table) -> np.ndarray:
         """Rows whose conditions are within the range of the recorded ones on which the law depends."""
@@ -101,7 +105,8 @@ class FoundLaw:
         rows = self.search.problem.rows
         names = [axis.name for axis in self.search.space.axes if not axis.named and axis.name in rows]
         own = [name for name in names if name in self.ranges]
-        used = own if len(own) == len(self.ranges) else [name for name in names if name not in PASSING]
+        alone = len(own) == len(self.ranges) and self.data["form"] != REPLACE
+        used = own if alone else [name for name in names if name not in PASSING]
         return {name: (float(np.min(rows[name])), float(np.max(rows[name]))) for name in used}
 
     @property
@@ -110,10 +115,18 @@ class FoundLaw:
         return as_effect({**self.data, "id": self.effect.id}, self.search.problem.case.kind.numbers)
 
     @property
-    def posterior(self) -> Posterior:
-        """The law as the only explanation, for predictions."""
-        weights = {self.explanation: 1.0, NOTHING: 0.0, DISCREPANCY: 0.0}
-        return Posterior(weights, self.explanation, (self.explanation,))
+    def alone(self) -> Posterior:
+        """The law as the only explanation, for predictions within its range."""
+        return self._averaging({self.explanation: 1.0})
+
+    @property
+    def one_of_several(self) -> Posterior:
+        """The law among all that the readings leave possible, for predictions beyond its range."""
+        return self._averaging(self.weights)
+
+    def _averaging(self, weights: Mapping[Explanation, float]) -> Posterior:
+        every = {**dict.fromkeys((*self.refined, DISCREPANCY), 0.0), **weights}
+        return Posterior(every, self.explanation, (self.explanation,))
 
 
 def find_law(search: Search, levels: LevelsOut) -> FoundLaw | None:
@@ -128,7 +141,8 @@ def find_law(search: Search, levels: LevelsOut) -> FoundLaw | None:
         return None
     forms = _fitted(search, every, _kinds(tried, len(every)))
     elsewhere = [c for w in forms[:FORMS_ELSEWHERE] for c in _on_other_quantities(w, search, tried)]
-    weighed = [*forms, *_fitted(search, every, elsewhere, len(forms))]
+    replacing = _leading_replacements(replacements(search, present), max(FIT_GAIN, tried[0].score - LISTED_BEHIND))
+    weighed = [*forms, *_fitted(search, every, [*elsewhere, *replacing], len(forms))]
     weighed = sorted((w for w in weighed if w.log_weight > search.null_fit.evidence + FIT_GAIN), key=_by_weight)
     if not weighed:
         return None
@@ -146,26 +160,37 @@ def find_law(search: Search, levels: LevelsOut) -> FoundLaw | None:
     kept, single = held[best.effect.id], search.problem.n_per_effective
     near = [w for w in weighed if w is not best and w.log_weight > best.log_weight - LISTED_BEHIND][:RIVALS]
     rivals = tuple(_rival(w, best, held, single) for w in near)
-    law, fit = best.effect, best.fit
-    final = _with_laws(full.problem, {law.id: law})
+    alike = [best, *(w for w, rival in zip(near, rivals, strict=True) if rival.equivalent)]
+    final = _with_laws(full.problem, {w.effect.id: w.effect for w in alike})
+    fits = {w.fit.explanation: w.fit for w in alike}
     if full is not search:
-        fit = map_fit(final, fit.explanation, fit.z, warm=True)
-    own_search = replace(
-        full, problem=final, fits={**full.fits, fit.explanation: fit}, screen=None, scores={**full.scores}
-    )
-    refined = {fit.explanation: refine(own_search, fit), NOTHING: refine(own_search, full.null_fit)}
+        fits = {key: map_fit(final, key, fit.z, warm=True) for key, fit in fits.items()}
+    own_search = replace(full, problem=final, fits={**full.fits, **fits}, screen=None, scores={**full.scores})
+    refined = {key: refine(own_search, fit) for key, fit in {**fits, NOTHING: full.null_fit}.items()}
+    key = best.fit.explanation
     read = words_of(best.data["expression"])
-    ranges = {v.text: (float(v.values.min()), float(v.values.max())) for v in present if v.text in read}
+    ranges = {
+        v.text: (float(v.values.min()), float(v.values.max()))
+        for v in present
+        if v.text in read or best.data["form"] == REPLACE
+    }
     return FoundLaw(
-        law,
-        _valued(best.data, final, fit),
+        best.effect,
+        _valued(best.data, final, fits[key]),
         own_search,
-        fit.explanation,
+        key,
         refined,
         kept.single_reading_units(single),
         rivals,
         ranges,
+        _shares({w.fit.explanation: w.log_weight for w in alike} | {DISCREPANCY: search.discrepancy.evidence}),
     )
+
+
+def _shares(logs: Mapping[Explanation, float]) -> dict[Explanation, float]:
+    """Probabilities from log weights."""
+    total = np.logaddexp.reduce(list(logs.values()))
+    return {key: float(np.exp(log - total)) for key, log in logs.items()}
 
 
 def _by_weight(w: Weighed) -> float:
@@ -225,6 +250,13 @@ def _kinds(tried: list[Candidate], count: int) -> list[Candidate]:
             ranked = sorted(groups.get(name, []), key=lambda c: -c.score - price(c, count))
             found += ranked[: max(1, round(share * most))]
     return found
+
+
+def _leading_replacements(ranked: list[Candidate], least: float) -> list[Candidate]:
+    """Replacements to be fitted: the best above a score, and the best one with fewer powers."""
+    near = [c for c in ranked if c.score > least][:REPLACEMENTS_FITTED]
+    fewer = [c for c in ranked if near and c.target is near[0].target and set(c.kind) < set(near[0].kind)]
+    return [*near, *(c for c in fewer if c not in near)]
 
 
 def _group(c: Candidate) -> str:

@@ -85,10 +85,22 @@ class DiscrepancyForm:
             columns = space.axes[place].about(values[place], self.at, self.length)
         else:
             columns = space.columns(values, self.length, self.axes, self.interactions)
+        return columns * self._sizes_of_rows(scalings_of)[:, None]
+
+    def _sizes_of_rows(self, scalings_of: Scalings) -> np.ndarray:
         times = scalings_of[self.modulates]
-        if self.past is not None:
-            times = times * scalings_of[self.past.key]
-        return self.size * columns * times[:, None]
+        return self.size * (times if self.past is None else times * scalings_of[self.past.key])
+
+    def faded(
+        self, space: Coordinates, recorded: list[np.ndarray], values: list[np.ndarray], scalings_of: Scalings
+    ) -> np.ndarray:
+        """Prior variance of a smooth function that its columns lack at new rows: they vanish far from recorded ones."""
+        if self.form != "smooth" and not (self.form == "history" and self.axes):
+            return np.zeros(values[0].size)
+        held = [
+            (space.columns(v, self.length, self.axes, self.interactions) ** 2).sum(axis=1) for v in (recorded, values)
+        ]
+        return np.asarray(np.maximum(held[0].min() - held[1], 0.0) * self._sizes_of_rows(scalings_of) ** 2)
 
     def scalings_at(self, problem: Problem, base: Run, typical: TypicalSizes, space: Coordinates) -> Scalings:
         """The scalings of the form in the rows of a problem."""

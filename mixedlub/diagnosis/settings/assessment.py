@@ -58,6 +58,8 @@ MOST_AVERAGED = 6
 """Cost limit. Explanations that are averaged."""
 NEGLIGIBLE = 2e-3
 """Judgement. Probability below which an explanation is left out of the average: it hardly changes the average."""
+HALVINGS = 40
+"""Judgement. Halvings towards the end of an interval of an average: to 1e-12 of the distance between its parts."""
 
 # Published laws and their ranges
 LAW_REJECTED = -4.6

@@ -42,6 +42,8 @@ KEPT_OF_TARGET = 6
 """Cost limit. Terms of a quantity that get a second term."""
 FORMS_FITTED = {"single": 4, "powers": 1, "product": 2, "sum": 2}
 """Cost limit. Forms of each kind that are fitted in full on the best quantity."""
+REPLACEMENTS_FITTED = 3
+"""Cost limit. Replacements of a quantity that are fitted in full."""
 FORMS_ELSEWHERE = 2
 """Cost limit. Fitted forms that are tried on every other quantity."""
 PROVED = 4
