@@ -41,10 +41,15 @@ Residual = Callable[[np.ndarray], np.ndarray]
 def descend(
     residual: Residual, start: np.ndarray, low: np.ndarray, high: np.ndarray, rounds: int = 25
 ) -> tuple[np.ndarray, float]:
-    """Levenberg-Marquardt inside a box, forward differences; returns the point and the sum of squares."""
+    """Levenberg-Marquardt inside a box, forward differences; returns the point and the sum of squares.
+
+    A start without a finite residual stays with an infinite sum.
+    """
     x = np.clip(start, low, high)
     r = residual(x)
     cost, damping = float(r @ r), 1e-3
+    if not np.isfinite(cost):
+        return x, np.inf
     for _ in range(rounds):
         signs = np.where(x + STEP > high, -1.0, 1.0)
         jacobian = np.array([(residual(x + STEP * s * e) - r) / (STEP * s) for s, e in zip(signs, np.eye(len(x)))]).T

@@ -10,6 +10,7 @@ from mixedlub.validation.contact import calibrated, press, shear, start
 from mixedlub.validation.measures import false_physics, right, tied
 from mixedlub.validation.rig import FILM, SHEAR, play
 from mixedlub.validation.rigs import discs, gears
+from mixedlub.validation.rivals import descend
 from mixedlub.validation.solved import table as tables
 from mixedlub.validation.solved import world
 from mixedlub.validation.solved.deal import plan_solved
@@ -174,3 +175,8 @@ def test_a_rig_with_a_contact_without_solution_is_drawn_again(monkeypatch):
     monkeypatch.setattr(world, "MOST_RIGS", 0)
     with pytest.raises(InputError, match="every rig has a contact without solution"):
         draw(np.random.default_rng(0), "disc", "nothing", False)
+
+
+def test_a_fit_of_a_rival_starts_only_where_the_model_has_a_number():
+    x, cost = descend(lambda x: np.full(2, np.nan), np.zeros(1), -np.ones(1), np.ones(1))
+    assert (x.tolist(), cost) == ([0.0], np.inf)
