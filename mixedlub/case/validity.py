@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from inspect import signature
 from typing import Any
 
@@ -17,7 +17,7 @@ from mixedlub.laws.contact import asperity_load_ratio, asperity_real_pressure
 from mixedlub.laws.film import film_over_contact_width
 from mixedlub.laws.load import carries_load
 from mixedlub.laws.oil import kinematic
-from mixedlub.schema.findings import Finding
+from mixedlub.schema.findings import Finding, Severity
 
 CHECKS: Chain = (
     ("kinematic_viscosity", kinematic),
@@ -26,6 +26,8 @@ CHECKS: Chain = (
     ("asperity_real_pressure", asperity_real_pressure),
 )
 """Judged quantities without influence on any reading."""
+OF_BASE_MODEL = ("asperities_overloaded", "asperities_above_hardness")
+"""Codes that are notes here: the base model of a recording has no balance of load, so most rough surfaces have them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +46,8 @@ class Judged:
     @property
     def findings(self) -> tuple[Finding, ...]:
         """A finding on each code, the gravest first."""
-        return tuple(findings(self.reached, (self.count,), "rows", self.source))
+        said = findings(self.reached, (self.count,), "rows", self.source)
+        return tuple(replace(one, severity=Severity.NOTE) if one.code in OF_BASE_MODEL else one for one in said)
 
 
 def judge_rows(

@@ -9,7 +9,7 @@ from typing import Any, Literal, get_args, get_origin
 import numpy as np
 import pytest
 
-from mixedlub.case import folder
+from mixedlub.case.columns import case_columns
 from mixedlub.cli import main
 from mixedlub.kinds import KINDS, NATIVE, kind
 from mixedlub.report.format_reference import kinds_text
@@ -49,7 +49,7 @@ def test_every_column_of_a_kind_is_told(name):
     for quantity in kind(name).quantities:
         recording = system_file.Recording(quantity=quantity, check="CHECK")
         system = system_file.System.model_construct(recording=recording, surfaces={})
-        for column in folder._columns(kind(name), system, measured=True):
+        for column in case_columns(kind(name), system, measured=True):
             shown = column.name.replace(f"{quantity}_sd", "READING_sd")
             (line,) = [text for text in lines if re.match(rf" {{2,4}}{shown} ", text)][:1]
             assert ("optional" in line) == (not column.required), line
