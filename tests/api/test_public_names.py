@@ -19,7 +19,7 @@ def test_importing_loads_nothing_heavy() -> None:
     assert printed(f"import sys, mixedlub; print(sorted({heavy} & set(sys.modules)))") == "[]"
 
 
-@pytest.mark.parametrize("first", ["rooms", "names"])
+@pytest.mark.parametrize("first", [pytest.param("rooms", marks=pytest.mark.long), "names"])
 def test_names_and_rooms_are_there_whichever_is_used_first(first: str) -> None:
     order = ("ml.ROOMS", "ml.PUBLIC") if first == "rooms" else ("ml.PUBLIC", "ml.ROOMS")
     code = "import mixedlub as ml, types\n"

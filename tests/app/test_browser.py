@@ -123,7 +123,13 @@ def to_a_run(page, name):
     return clicks
 
 
-@pytest.mark.parametrize("name", sorted(set(MADE_UP) - {"driven_and_back_driven"}))
+@pytest.mark.parametrize(
+    "name",
+    [
+        name if name == "films" else pytest.param(name, marks=pytest.mark.long)
+        for name in sorted(set(MADE_UP) - {"driven_and_back_driven"})
+    ],
+)
 def test_a_recording_is_diagnosed_within_six_clicks(page, name):
     clicks = to_a_run(page, name)
     assert clicks.count <= MOST_CLICKS

@@ -29,6 +29,7 @@ def test_every_figure_is_drawn(written: dict[str, str], teeth: Diagnosis) -> Non
     assert "nan" not in written["figures/recorded_against_simulated.svg"]
 
 
+@pytest.mark.long
 def test_no_number_is_told_of_no_reading(written: dict[str, str], teeth: Diagnosis) -> None:
     assert np.isfinite(json.loads(written["diagnosis.json"])["fit"]["noise_rms"])
     assert f"for {teeth.readings.size} readings after calibration" in written["report.txt"].replace("\n  ", " ")

@@ -67,6 +67,7 @@ def steep(
     return diagnose_case(make_case(tmp_path_factory.mktemp("steep"), "gear_pair", change), exclude=excluded)
 
 
+@pytest.mark.long
 def test_beyond_its_range_a_law_is_one_of_several(steep: Diagnosis) -> None:
     law = steep.law
     assert law is not None

@@ -13,6 +13,8 @@ from mixedlub.diagnosis.assessment.power_law import absorbing_stages, features, 
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.effects import catalogue
 
+pytestmark = pytest.mark.long
+
 
 @pytest.fixture(scope="module")
 def lawful(make_case: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:

@@ -1,6 +1,7 @@
 """An answer that takes more readings for outliers than instruments have names nothing."""
 
 import numpy as np
+import pytest
 
 from mixedlub.diagnosis.assessment.step_evidence import outliers_after_steps
 from mixedlub.diagnosis.diagnose import diagnose_case
@@ -15,6 +16,7 @@ def history(folder, y, sd):
     return write_case(folder, system, {"time_s": time, "friction_coefficient": y})
 
 
+@pytest.mark.long
 def test_two_thirds_that_run_in_and_a_third_that_does_not_get_no_name(tmp_path):
     rng, share = np.random.default_rng(1), np.linspace(0.0, 1.0, 150)
     y = 0.16 + 0.05 * np.exp(-share / 0.12) + rng.normal(0.0, 0.002, 150)

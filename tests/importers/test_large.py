@@ -21,6 +21,7 @@ def table(rows):
     return "Time [s],Speed [rpm],Friction torque [Nm],Oil temp [°C],Sample\n" + "\n".join(lines) + "\n"
 
 
+@pytest.mark.long
 def test_a_table_of_many_rows_is_imported_whole(file, tmp_path):
     path = file(table(ROWS))
     with pytest.warns(UserWarning, match="pooled"):

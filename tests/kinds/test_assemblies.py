@@ -39,6 +39,7 @@ def test_a_load_that_counts_is_found_across_assemblies_and_calibration_stays_nea
     assert 0.8 < ratio < 1.25
 
 
+@pytest.mark.long
 def test_assemblies_that_differ_are_no_physics(make):
     found = diagnose_case(make(*drive(0.0, 0.2)).folder)
     assert found.posterior.verdict == NOTHING

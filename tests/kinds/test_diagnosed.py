@@ -61,6 +61,7 @@ def test_film_mismatch_is_at_high_speed(typed):
     assert cuts[0]["low"] > 0.9
 
 
+@pytest.mark.long
 def test_film_loss_is_heating_in_a_tie_with_starvation_and_thinning_is_named_as_alike(typed):
     d = typed("ehd_film_31C_50N")
     assert ["inlet_shear_heating"] in tied(d)
@@ -193,6 +194,7 @@ def test_no_physics_alone_is_named_where_films_step(filed):
     assert all(instrument(ids) for ids in named(filed("ehd_film_oil_b_100C")))
 
 
+@pytest.mark.long
 def test_film_above_its_neighbour_is_set_aside(filed):
     assert 16 in filed("ehd_film_oil_b_100C").outlier_runs
 
@@ -246,6 +248,7 @@ def test_a_rheometer_log_is_answered_alike_however_dense_it_is(shared, tmp_path,
     assert tied(diagnose_case(tmp_path)) == [["viscosity_drift"]]
 
 
+@pytest.mark.long
 def test_motors_without_gears_blame_the_torque_constant_and_not_the_gears(filed):
     d = filed("geared_actuator_back_to_back")
     assert all("torque_constant" in ids for ids in named(d))

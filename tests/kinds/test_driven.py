@@ -1,6 +1,7 @@
 """Drives that are loaded in both senses: what their gears lose, and what the motor's torque constant may be."""
 
 import numpy as np
+import pytest
 
 from mixedlub.diagnosis.diagnose import diagnose_case
 from mixedlub.effects import find
@@ -36,6 +37,7 @@ def test_a_loss_that_depends_on_who_drives_is_tied_with_the_torque_constant(tmp_
     assert "stalled output" in law.separated_by
 
 
+@pytest.mark.long
 def test_gears_that_lose_alike_both_ways_need_no_difference(tmp_path):
     d = map_of(tmp_path, 0.13, 0.13)
     assert all("load_dependent_friction" in ids for ids in tied(d))

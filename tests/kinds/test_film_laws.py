@@ -66,6 +66,7 @@ def test_formula_for_all_regimes_ends_in_the_exponents_of_its_asymptotes(rig, lo
     assert np.diff(np.log(film))[0] / np.diff(np.log(speed))[0] == pytest.approx(exponent, abs=0.005)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("oil", ["usual", *(pytest.param(o, marks=pytest.mark.long) for o in OILS if o != "usual")])
 def test_films_of_another_film_law_lack_nothing(make, oil):
     d = diagnose_case(make(unnamed(), films(oil, heated=False)).folder)

@@ -41,6 +41,7 @@ def test_up_and_down_again_gives_the_moment_of_inertia_and_nothing_else(tmp_path
     assert d.heldout.after < 1.3
 
 
+@pytest.mark.long
 def test_an_acceleration_that_is_a_line_over_speed_is_told_and_inertia_is_not_excluded(tmp_path):
     time = np.arange(0.0, 60.0, 0.5)
     speed = 1500.0 * -np.expm1(-time / 18.0)
@@ -49,6 +50,7 @@ def test_an_acceleration_that_is_a_line_over_speed_is_told_and_inertia_is_not_ex
     assert "inertia_not_separable" in {one.code for one in d.warnings}
 
 
+@pytest.mark.long
 def test_a_slow_ramp_without_inertia_has_nothing_missing(tmp_path):
     time = np.arange(80.0) * 5.0
     d = run_up(tmp_path, time, np.linspace(50.0, 1500.0, 80), np.zeros(80))

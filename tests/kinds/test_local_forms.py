@@ -50,6 +50,7 @@ def test_a_resonance_is_no_heap_of_outliers(make):
     assert f"is a peak at speed {AT:.4g} rpm in both directions" in told(found)
 
 
+@pytest.mark.long
 def test_wild_readings_at_many_places_are_no_peak(make):
     about, columns = drive(lambda speed, order: np.zeros(speed.size))
     wild = np.arange(7, 140, 23)
@@ -59,6 +60,7 @@ def test_wild_readings_at_many_places_are_no_peak(make):
     assert found.outlier_runs == [int(r) for r in found.case.recordings["run"][wild]]
 
 
+@pytest.mark.long
 def test_few_wild_readings_at_one_place_are_no_peak(make):
     about, columns = drive(lambda speed, order: np.zeros(speed.size))
     there = np.flatnonzero(columns["speed_rpm"] == np.round(AT, 2))[:2]
@@ -133,6 +135,7 @@ def test_the_run_of_a_change_is_told_among_very_many(make):
     assert not found.outlier_runs
 
 
+@pytest.mark.long
 def test_a_passing_disturbance_is_no_lasting_event(make):
     time = np.linspace(60.0, 7200.0, 60)
     friction = 0.1 * (1.0 + 0.3 * np.exp(-0.5 * ((time - 4000.0) / 250.0) ** 2))
@@ -164,6 +167,7 @@ def films(dent=1.0, repeats=1):
     return film(thickness, speed, slide_roll_ratio=slip, load_N=load, oil_temperature_C=celsius)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("repeats", [1, pytest.param(2, marks=pytest.mark.long)])
 def test_a_corner_of_conditions_is_no_heap_of_outliers(make, repeats):
     """A dimple: films are a quarter thicker under a small load and fast sliding, and repeats agree on it."""

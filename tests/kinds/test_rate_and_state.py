@@ -87,7 +87,10 @@ def test_a_sweep_and_a_constant_speed_have_no_steps():
     assert steps(np.repeat([0.1, 0.1004, 0.4], 20)).tolist() == [40]
 
 
-@pytest.mark.parametrize(("rate", "named"), [(ageing, "rate_and_state"), (slipping, "rate_and_state_slip")])
+@pytest.mark.parametrize(
+    ("rate", "named"),
+    [(ageing, "rate_and_state"), pytest.param(slipping, "rate_and_state_slip", marks=pytest.mark.long)],
+)
 def test_steps_of_speed_give_both_strengths_and_the_slip_and_say_where_it_begins(tmp_path, rate, named):
     times, speeds = programme()
     read = solved(rate, times, speeds) + np.random.default_rng(6).normal(0.0, 6e-4, times.size)

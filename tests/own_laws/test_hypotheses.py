@@ -36,7 +36,7 @@ def gears(tmp_path_factory: pytest.TempPathFactory) -> Diagnosed:
     return made, ml.diagnose(made.folder, exclude=OTHERS)
 
 
-@pytest.mark.parametrize("which", ["discs", "gears"])
+@pytest.mark.parametrize("which", ["discs", pytest.param("gears", marks=pytest.mark.long)])
 def test_the_true_law_is_found_among_false_ones(which: str, request: pytest.FixtureRequest) -> None:
     made, answer = request.getfixturevalue(which)
     assert answer.verdict == [made.truth]

@@ -62,6 +62,7 @@ def test_table_is_within_its_bound_over_the_whole_range(law):
         assert not height_sum(law, which, np.array([LAST + 1e-9, 50.0]), 0.01).any()
 
 
+@pytest.mark.long
 @each
 def test_many_different_onsets_are_within_their_bound(law):
     rng = np.random.default_rng(3)

@@ -101,7 +101,7 @@ def test_a_scheduler_without_workers_says_how_to_start_one(cluster):
 
 
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="needs kill -9")
-@pytest.mark.parametrize("victim", ["worker", "scheduler"])
+@pytest.mark.parametrize("victim", ["worker", pytest.param("scheduler", marks=pytest.mark.long)])
 def test_a_killed_process_is_one_sentence_and_the_rerun_goes_on(
     victim, cluster, write_study, tmp_path, monkeypatch, capfd
 ):

@@ -32,6 +32,7 @@ def contents(folder):
     return {file.relative_to(folder): file.read_bytes() for file in folder.rglob("*") if file.is_file()}
 
 
+@pytest.mark.long
 def test_the_parts_hold_all_cases_once(exported):
     parts = [sorted(p.name for p in (exported / "benchmark" / part).iterdir()) for part in ("open", "blind")]
     assert [len(part) for part in parts] == [3, 6]
