@@ -36,7 +36,7 @@ EMPTY = np.zeros(0)
 FORMS = ("box", "wave", "peak", "step", "delay")
 Switch = tuple[Any, str, Any]
 WEIGHED_AGAIN: dict[str, Switch] = {
-    "published laws within an effect": (search, "published_gain", lambda *a: 0.0),
+    "published laws within an effect": (search, "PUBLISHED_WITHIN", -1.0),
     "errors of laws": (search, "law_error_evidence", lambda problem, stiff, fit, *a: fit.evidence),
     "errors of the base laws": (law_error, "BASE_ERRORS", ((0.0, 1.0),)),
 }

@@ -3,9 +3,8 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.powers import power
 from mixedlub.chain.priors import LogNormal, Uniform
-from mixedlub.laws.flattening import amplitude_left
+from mixedlub.laws.flattening import amplitude_left, reduction_rate
 
 REFERENCE = 0.01
 NODES, WEIGHTS = np.polynomial.hermite_e.hermegauss(3)
@@ -97,7 +96,7 @@ def micro_ehl(
     speed = 2.0 * inlet * entrainment_speed / (reduced_modulus * radius)
     load = 2.0 * np.pi * (hertz_pressure / reduced_modulus) ** 2 * speed**-0.5
     material = pressure_viscosity * reduced_modulus * speed**0.25
-    rate = 2.0 * np.pi * relative_wavelength / hertz_half_width * power(load, 0.75) * power(material, -0.5)
+    rate = 2.0 * np.pi * relative_wavelength / hertz_half_width * reduction_rate(load, material)
     kept: list[list[np.ndarray]] = [[], [], []]
     first = (height_share, slope_share, curvature_share)
     for heights, slopes, curvatures in (first, tuple(1.0 - share for share in first)):

@@ -25,16 +25,16 @@ def amplitude_left(reduction: np.ndarray) -> np.ndarray:
     return 1.0 / (1.0 + LINE_WAVE[0] * reduction + LINE_WAVE[1] * reduction**2)
 
 
-def wave_amplitude(wavelength: np.ndarray, moes_load: np.ndarray, moes_material: np.ndarray) -> np.ndarray:
-    r"""Amplitude of a transverse wave in the film over the amplitude outside (-), of Moes' groups.
+def reduction_rate(moes_load: np.ndarray, moes_material: np.ndarray) -> np.ndarray:
+    r"""Venner's number of a transverse wave over its length in half widths (-), :math:`M^{3/4} L^{-1/2}`.
 
-    ``wavelength`` is in half widths of the contact; M = W (2U)^{-1/2} and L = G (2U)^{1/4}. Within 5 % of solutions for
-    wavelengths up to one half width, too large a reduction above. Source: as `amplitude_left`.
+    M = W (2U)^{-1/2} and L = G (2U)^{1/4}. With it `amplitude_left` is within 5 % of solutions for wavelengths up to
+    one half width, too large a reduction above. Source: as `amplitude_left`.
 
-    >>> round(float(wave_amplitude(0.25, 100.0, 11.0)), 2)   # solution: 0.66
+    >>> round(float(amplitude_left(0.25 * reduction_rate(100.0, 11.0))), 2)   # a quarter of b; solution: 0.66
     0.63
     """
-    return amplitude_left(wavelength * power(moes_load, 0.75) * power(moes_material, -0.5))
+    return np.asarray(power(moes_load, 0.75) * power(moes_material, -0.5))
 
 
 def flattening_rate(

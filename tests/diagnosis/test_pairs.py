@@ -13,7 +13,13 @@ from mixedlub.diagnosis.inference.additions import promising_additions
 from mixedlub.diagnosis.inference.change_points import integrate_change_points
 from mixedlub.diagnosis.inference.initial_guesses import fit_singles, sample
 from mixedlub.diagnosis.inference.map_fit import map_fit
-from mixedlub.diagnosis.inference.nested_laws import published_gain, published_odds
+from mixedlub.diagnosis.inference.nested_laws import (
+    _linearised,
+    _nested,
+    linearised_gain,
+    published_gain,
+    published_odds,
+)
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.several import one_in_time
 
@@ -47,6 +53,28 @@ def test_half_of_what_is_believed_of_an_effect_is_its_published_law(viscous: flo
     low, high = gained
     free = map_fit(made, Explanation.of("seal_drag"), np.append(z, 0.0))
     assert low <= published_gain(made, free) < high
+    assert linearised_gain(made, free) == pytest.approx(published_gain(made, free), abs=0.1)
+
+
+@pytest.mark.parametrize("relative", [0.002, 0.02])
+def test_a_linearised_law_is_no_better_than_its_fit(relative: float) -> None:
+    """Drag of bearings by a constant coefficient, laid to another law: far from where the slopes were taken."""
+    p = problem(relative=relative)
+    name = Explanation.of("bearing_drag")
+    z = np.append(np.zeros(p.calibration_size), np.full(p.size(name) - p.calibration_size, 0.8))
+    made = replace(p, y=p.predict(name, z))
+    free = map_fit(made, name, z)
+    for _, law, odds in published_odds(made, free):
+        nested, kept = next((one[2], one[3]) for one in _nested(made, free) if one[1] == law)
+        assert _linearised(nested, free, kept)[1] - free.evidence < odds + 0.5, law
+
+
+def test_slopes_of_a_fit_are_the_derivative_within_its_last_step() -> None:
+    p = problem(extra=0.1)
+    name = Explanation.of("churning")
+    fit = map_fit(p, name, np.zeros(p.size(name)))
+    exact = p.jacobian(name, fit.z)
+    assert np.linalg.norm(fit.slopes - exact) < 0.02 * np.linalg.norm(exact)
 
 
 @pytest.mark.long

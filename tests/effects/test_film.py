@@ -9,7 +9,7 @@ from mixedlub.effects.inlet_shear_heating import inlet_shear_heating
 from mixedlub.effects.inlet_shear_thinning import inlet_shear_thinning
 from mixedlub.effects.micro_ehl import micro_ehl
 from mixedlub.effects.roughness_lay import roughness_lay
-from mixedlub.laws.flattening import wave_amplitude
+from mixedlub.laws.flattening import amplitude_left, reduction_rate
 
 
 @pytest.mark.literature(
@@ -18,7 +18,7 @@ from mixedlub.laws.flattening import wave_amplitude
 @pytest.mark.parametrize(("wavelength", "left"), [(1.0, 0.183), (0.5, 0.394), (0.25, 0.660), (0.125, 0.839)])
 def test_amplitude_of_waves_in_a_line_contact(wavelength: float, left: float) -> None:
     """Solutions at M 100 and L 11, for a tenth of the film."""
-    assert wave_amplitude(wavelength, 100.0, 11.0) == pytest.approx(left, rel=0.05)
+    assert amplitude_left(wavelength * reduction_rate(100.0, 11.0)) == pytest.approx(left, rel=0.05)
 
 
 def test_each_surface_is_flattened_by_its_own_waves() -> None:
@@ -46,9 +46,8 @@ def test_waves_of_a_spectrum_are_flattened_one_by_one(spread: float) -> None:
     q = np.sqrt(m2 / m0) * np.exp(np.linspace(-8.0, 8.0, 4001))
     density = np.exp(-((np.log(q) - np.log(m2 / m0) / 2.0 + variance) ** 2) / (2.0 * variance))
     speed = 2.0 * 0.015 / (226e9 * 8e-3)
-    kept = wave_amplitude(
-        2.0 * np.pi / q / width, 2.0 * np.pi * (1.0 / 226.0) ** 2 * speed**-0.5, 15.0 * 226.0 * speed**0.25
-    )
+    rate = reduction_rate(2.0 * np.pi * (1.0 / 226.0) ** 2 * speed**-0.5, 15.0 * 226.0 * speed**0.25)
+    kept = amplitude_left(2.0 * np.pi / q / width * rate)
     expected = [np.sum(density * q**k * kept**2) / np.sum(density * q**k) for k in (0, 2, 4)]
     assert found == pytest.approx(expected, abs=0.02)
     assert found[0] < found[1] < found[2]

@@ -47,9 +47,9 @@ class Fit:
     """An explanation at its most probable coordinates ``z``.
 
     ``residual`` is (y - prediction)/sd less ``common``, the errors shared within set-ups; ``slopes`` its negative
-    derivative with respect to z, ``weight`` the precision of each reading after the chance that it is an outlier,
-    ``evidence`` the Laplace estimate of the log marginal likelihood (up to a constant common to all explanations
-    of a problem).
+    derivative with respect to z where the last step began, ``weight`` the precision of each reading after the chance
+    that it is an outlier, ``evidence`` the Laplace estimate of the log marginal likelihood (up to a constant common to
+    all explanations of a problem).
     """
 
     explanation: Explanation
@@ -308,7 +308,7 @@ def _gauss_newton(
     """Damped Gauss-Newton steps until the gain is below the tolerance, or the fit is hopelessly behind its rival.
 
     Every second Jacobian is only corrected along the step, and the others reuse the columns of small corrections to
-    base laws; only the last step has a full Jacobian, which the result keeps.
+    base laws; only the last step has a full Jacobian, which the result keeps. A fit that is given up keeps what it has.
     """
     z, shared, run, slopes = state.z, state.shared, state.run, state.slopes
     cost, weight = _cost(problem, run.prediction, z, shared, likelihood)

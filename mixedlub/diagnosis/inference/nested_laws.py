@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from mixedlub.diagnosis.inference.change_points import integrate_change_points
+from mixedlub.diagnosis.inference.change_points import change_point_coordinates, integrate_change_points
+from mixedlub.diagnosis.inference.likelihood import log_likelihood
 from mixedlub.diagnosis.inference.map_fit import Fit, linear_fit, map_fit
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.settings.inference import (
@@ -43,7 +44,9 @@ def published_gain(problem: Problem, free: Fit) -> float:
 
 
 def linearised_gain(problem: Problem, free: Fit) -> float:
-    """Estimate of `published_gain` with the slopes of the free fit."""
+    """Estimate of `published_gain` with the slopes of the free fit; explanations with change points are fitted."""
+    if change_point_coordinates(problem, free.explanation):
+        return published_gain(problem, free)
     found = ((effect, _linearised(nested, free, kept)[1]) for effect, _, nested, kept in _nested(problem, free))
     return _gain((effect, evidence - free.evidence) for effect, evidence in found)
 
@@ -71,17 +74,25 @@ def _nested(problem: Problem, free: Fit) -> Iterator[tuple[str, str, Problem, np
 
 
 def _linearised(nested: Problem, free: Fit, kept: np.ndarray) -> tuple[np.ndarray, float]:
-    """Most probable coordinates of the rest and log evidence, from two rounds with the slopes of the free fit."""
-    z, weight, slopes = free.z[kept], free.weight, free.slopes[:, kept]
-    columns, evidence = np.hstack([slopes, nested.shared]), -np.inf
-    for _ in range(LINEAR_ROUNDS):
+    """Coordinates of the rest and log evidence there, the best of the free fit's and of rounds with its slopes.
+
+    The slopes only find the coordinates; the misfit is that of the nonlinear laws.
+    """
+    z, slopes = free.z[kept], free.slopes[:, kept]
+    columns = np.hstack([slopes, nested.shared])
+    found = [(z, -np.inf)]
+    for _ in range(LINEAR_ROUNDS + 1):
         residual = (nested.y - nested.predict(free.explanation, z)) / nested.sd
         if not np.isfinite(residual).all():
-            return free.z[kept], -np.inf
-        linear = linear_fit(residual + slopes @ z, columns, weight)
+            break
+        shared = linear_fit(residual, nested.shared, free.weight)
+        curvature = np.eye(columns.shape[1]) + columns.T @ (columns * shared.weight[:, None])
+        squares = z @ z + shared.coefficients @ shared.coefficients
+        volume = float(np.linalg.slogdet(curvature)[1])
+        found.append((z, float(log_likelihood(shared.residual)[0].sum()) - 0.5 * (float(squares) + volume)))
+        linear = linear_fit(residual + slopes @ z, columns, shared.weight)
         z = np.clip(linear.coefficients[: z.size], -MOST_COORDINATE, MOST_COORDINATE)
-        weight, evidence = linear.weight, linear.evidence
-    return z, evidence
+    return max(found, key=lambda one: one[1])
 
 
 def _nested_fit(nested: Problem, free: Fit, kept: np.ndarray, worst: float, tolerance: float) -> Fit:

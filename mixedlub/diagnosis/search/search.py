@@ -247,9 +247,15 @@ def _scores(
     best = max(weights.values())
     near = [m for m, weight in weights.items() if weight > best - PUBLISHED_WITHIN]
     gains = dict(zip(near, shared_out(lambda m: linearised_gain(problem, fits[m]), near), strict=True))
-    best = max(weights[m] + gain for m, gain in gains.items())
-    nearer = [m for m in near if weights[m] + gains[m] > best - LAWS_REFITTED_WITHIN]
-    gains |= zip(nearer, shared_out(lambda m: published_gain(problem, fits[m]), nearer), strict=True)
+    fitted: set[Explanation] = set()
+    while True:
+        # Fitted gains may lower the best, so that others come near it.
+        best = max((weights[m] + gain for m, gain in gains.items()), default=0.0)
+        nearer = [m for m in gains if m not in fitted and weights[m] + gains[m] > best - LAWS_REFITTED_WITHIN]
+        if not nearer:
+            break
+        gains |= zip(nearer, shared_out(lambda m: published_gain(problem, fits[m]), nearer), strict=True)
+        fitted.update(nearer)
     return {m: score + gains.get(m, 0.0) for m, score in scores.items()}
 
 
