@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mixedlub.case.folder import RUNS_LISTED, Case, columns_of
+from mixedlub.case.columns import case_columns
+from mixedlub.case.folder import RUNS_LISTED, Case
 from mixedlub.case.reach import surface_columns
 from mixedlub.schema.findings import collected, finding, listed, report
 from mixedlub.schema.table import RUN, Column, Table, frame_of, read_table, table_of
@@ -38,7 +39,7 @@ def with_added(case: Case, added: Path | Frame) -> tuple[Case, Table]:
 def _read(case: Case, added: Path | Frame) -> Table:
     """The table, with the columns of the recording alone; an empty reading is not a number."""
     assert case.recordings is not None
-    own = [c for c in columns_of(case, measured=True) if c.name in case.recordings]
+    own = [c for c in case_columns(case.kind, case.system, measured=True) if c.name in case.recordings]
     optional = {"sequence", "rig", "setup", f"{case.quantity}_sd", case.system.recording.check}
     columns = tuple(
         replace(c, required=c.name not in optional, optional_cells=c.optional_cells or _is_read(case, c)) for c in own
@@ -64,7 +65,8 @@ def _is_read(case: Case, column: Column) -> bool:
 def _check(case: Case, rows: Table, where: str) -> None:
     """Raise an error for empty readings and repeated runs; report runs outside the reach of the rig."""
     assert case.recordings is not None
-    for name in (c.name for c in columns_of(case, measured=True) if c.name in rows and _is_read(case, c)):
+    columns = case_columns(case.kind, case.system, measured=True)
+    for name in (c.name for c in columns if c.name in rows and _is_read(case, c)):
         empty = rows["run"][~np.isfinite(rows[name])]
         if empty.size:
             runs = listed(empty.tolist(), RUNS_LISTED)

@@ -387,9 +387,4 @@ def _with_filled_sds(table: Table, name: str) -> Table:
     return replace(table, columns={**table.columns, name: np.where(known, table[name], middle)})
 
 
-def columns_of(case: Case, measured: bool) -> tuple[Column, ...]:
-    """Columns allowed in a table of a case, with the reading if ``measured``."""
-    return case_columns(case.kind, case.system, measured)
-
-
 __all__ = ["Case", "case_of", "read_case", "read_conditions", "refuse_used_runs", "unpredicted_runs"]

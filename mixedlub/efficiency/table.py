@@ -69,7 +69,7 @@ TABLES = {
         origin="text: origin of the loss, or total",
         part="text: name of the part",
         law="text: law of the loss",
-        loss_W="loss at the condition of [cycle]",
+        loss_W="loss at the condition of [cycle]; in coast alone, of the gearbox driven at its output",
         share_percent="part of the total loss",
     ),
     "stages": described(

@@ -26,7 +26,7 @@ STEADY = {
     "WAY_heat_W": "heat by a way, positive to the surroundings",
     "heat_difference": "heat out less heat in, over heat in",
     "balance": "text: converged; none up to the highest temperature, or not converged: numbers are empty",
-    "validity": f"text: valid, or the reason against it; {NO_BALANCE} without balance",
+    "validity": f"text: valid, or what is not; {NO_BALANCE} where no temperature balances the heat",
 }
 TABLES = {
     "thermal": described(**AT, **STEADY),

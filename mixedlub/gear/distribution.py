@@ -77,7 +77,7 @@ class LdpSharing(Modifications):
 
     def check(self, pair: GearPair) -> tuple[Finding, ...]:
         """Raise an error for undercut flanks, reliefs longer than the path, bores outside the range of the ring law."""
-        super().check(pair)
+        self._refuse_long(pair)
         _refuse_undercut(pair)
         if pair.ring:
             self._refuse_on_ring()

@@ -11,7 +11,6 @@ import numpy as np
 
 from mixedlub.gear.checks import two
 from mixedlub.gear.geometry import GearPair, Pair
-from mixedlub.schema.findings import Finding
 from profiles.errors import InputError
 
 
@@ -68,7 +67,7 @@ class Modifications:
         if self.relief_form not in ("linear", "parabolic"):
             raise InputError("'linear' or 'parabolic'", where="relief_form", value=self.relief_form)
 
-    def check(self, pair: GearPair) -> tuple[Finding, ...]:
+    def _refuse_long(self, pair: GearPair) -> None:
         """Raise an error for a relief longer than the path of contact, or than the face."""
         path = "path of contact", pair.path_end - pair.path_start
         for key, lengths, (place, longest) in (
@@ -82,7 +81,6 @@ class Modifications:
                     where=key,
                     value=max(lengths) * 1e3,
                 )
-        return ()
 
     def starts(self, pair: GearPair) -> np.ndarray:
         """Positions (m) where a relief starts."""

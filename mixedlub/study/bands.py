@@ -44,12 +44,12 @@ Cause = tuple[int, int] | str
 
 @dataclass(frozen=True, eq=False)
 class Axis:
-    """Inputs at both ends of one uncertainty; ``reach``: way to the low end over the whole way, below 1 where cut."""
+    """Inputs at both ends of one uncertainty; ``reach``: way down to an input of 0 over the way to an uncut low end."""
 
     low: Values
     high: Values
     cause: Cause
-    reach: float = 1.0
+    reach: float = np.inf
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,7 +140,7 @@ def _stated(
         )
     elif name == BOUNDARY:
         reach = _reach(own[name], sd)
-        low, high = ({**own, name: own[name] + step * REACH * sd} for step in (-reach, 1.0))
+        low, high = ({**own, name: own[name] + step * REACH * sd} for step in (-min(reach, 1.0), 1.0))
         return Axis(low, high, name, reach)
     else:
         low, high = ({**own, name: own[name] * np.exp(sign * REACH * sd)} for sign in (-1.0, 1.0))
@@ -148,20 +148,23 @@ def _stated(
 
 
 def _reach(value: float, sd: float) -> float:
-    """Way to the low end of a band that ends at 0, over the way to its end without that limit.
+    """Way from a value down to 0, over the way to the low end of its band; the band is cut below 1.
 
-    >>> round(_reach(0.1, 0.1), 3), _reach(0.1, 0.02)
-    (0.608, 1.0)
+    >>> round(_reach(0.1, 0.1), 3), round(_reach(0.1, 0.02), 3)
+    (0.608, 3.04)
     """
-    return float(min(1.0, value / (REACH * sd))) if sd > 0.0 else 1.0
+    return float(value / (REACH * sd)) if sd > 0.0 else np.inf
 
 
 def _tell_cut(uncertain: Mapping[str, float], common: Values) -> None:
     """Report a band of boundary friction that ends at 0 before its low end."""
     sd = uncertain.get(BOUNDARY, 0.0)
     if (reach := _reach(common.get(BOUNDARY, 0.0), sd)) < 1.0:
-        whole = common[BOUNDARY] - REACH * sd
-        text = f"its 90 % band would begin at {whole:.2g} and is cut at 0, {100.0 * reach:.2g} % of the way"
+        value = common[BOUNDARY]
+        text = (
+            f"its 90 % band would begin at {value - REACH * sd:.2g}, below 0, and begins at 0 instead: "
+            f"{100.0 * min(reach, 0.99):.0f} % of the way down from {value:g}"
+        )
         report(finding("band_end_cut", text, f"uncertainty.{BOUNDARY}"))
 
 

@@ -51,9 +51,9 @@ def loss_draws(results: Results) -> np.ndarray | None:
         for number, axis in enumerate(group.axes):
             low, high = (_log_mean(results, loss_name(place, number, end)) - middle for end in (LOW, HIGH))
             change = _changes(axis.cause, pairings, of_surface, common, count)
-            # Draws beyond a cut end stay at it.
-            below = np.clip(-change, 0.0, np.inf if axis.reach == 1.0 else axis.reach)
-            below = np.divide(below, axis.reach, out=np.zeros_like(below), where=axis.reach > 0.0)
+            # Draws of an input below 0 stay at 0.
+            below, end = np.clip(-change, 0.0, axis.reach), min(axis.reach, 1.0)
+            below = np.divide(below, end, out=np.zeros_like(below), where=end > 0.0)
             total += np.maximum(change, 0.0) * high + below * low
         logs.append(total)
     return np.exp(_between([group.factor for group in bands], logs, random))

@@ -348,7 +348,13 @@ def read_mark(folder: Path) -> dict[str, Any]:
     file = folder / MARK
     if not file.exists():
         raise InputError(f"{MARK}, which names the battery, is missing", where=str(folder))
-    return {"dealt_by": plan.__name__, **json.loads(file.read_text(encoding="utf-8"))}
+    try:
+        mark = json.loads(file.read_text(encoding="utf-8"))
+    except ValueError:
+        mark = None
+    if not isinstance(mark, dict) or not isinstance(mark.get("dealt_by", ""), str):
+        raise InputError("damaged: a JSON object is needed, with a name as dealt_by", where=str(file))
+    return {"dealt_by": plan.__name__, **mark}
 
 
 def generate(
@@ -365,7 +371,8 @@ def generate(
     folder.mkdir(parents=True, exist_ok=True)
     mark, file = {"kinds": list(kinds), "seed": seed, "cases": cases, "dealt_by": dealt.__name__}, folder / MARK
     if file.exists() and read_mark(folder) != mark:
-        raise InputError("the folder holds a battery of other kinds, seed or size", where=str(folder), value=mark)
+        rule = "the folder holds a battery of other kinds, seed, size or planner"
+        raise InputError(rule, where=str(folder), value=mark)
     file.write_text(json.dumps(mark), encoding="utf-8")
     report = progress or (lambda done, total: None)
     if jobs == 1:

@@ -13,7 +13,7 @@ from mixedlub.validation.battery import deck, drawn_rigs, ordered, shuffled, sur
 from mixedlub.validation.measures import coverage, false_physics, held_ratio, unknown_suspected
 from mixedlub.validation.rigs import FAMILIES
 from mixedlub.validation.sample_case import Order
-from mixedlub.validation.score import FIGURES, Figure, Measured, any_case, at_least, at_most, chosen, share
+from mixedlub.validation.score import FIGURES, Figure, Measured, any_case, at_least, at_most, chosen, of_class, share
 from profiles.errors import InputError
 
 KINDS = ("gear_pair", "disc", "film", "friction_map", "friction_history")
@@ -91,11 +91,11 @@ def shapes_of(expression: str) -> frozenset[str]:
 
 
 def _lawful(truth: Truth, answer: Answer) -> bool:
-    return truth.effects[0] in LAWS
+    return bool(truth.effects) and truth.effects[0] in LAWS
 
 
 def _lawless(truth: Truth, answer: Answer) -> bool:
-    return not _lawful(truth, answer)
+    return truth.group == "unknown" and not _lawful(truth, answer)
 
 
 def _claimed(truth: Truth, answer: Answer) -> bool:
@@ -135,7 +135,7 @@ def _both(truth: Truth, answer: Answer) -> bool:
 
 
 OUTSIDE_FIGURES: tuple[Measured, ...] = (
-    share("said", "unknown said or tied, and no false name at 0.9", any_case, _said, at_least(0.90)),
+    share("said", "unknown said or tied, and no false name at 0.9", of_class("unknown"), _said, at_least(0.90)),
     share("false_name", "  a false name at 0.9 or more", any_case, false_physics, at_most(0.04)),
     share("stage", "a law describes it: quantity right or tied", _lawful, _stage, at_least(0.80)),
     share("shape", "  shape right, up to equivalence", _lawful, _shape, at_least(0.60)),

@@ -184,9 +184,12 @@ def judge(out: Path, sealed: Sequence[Path], rivals: dict[str, Path] | None = No
     each of the others, ``score.txt`` with all figures, counts by kind and form and wrong answers, and SVG figures. The
     file beside the ``sealed`` cases names the battery, which decides the figures.
     """
+    folders = sorted({str(case.parent) for case in sealed})
+    if len(folders) != 1:
+        raise InputError("cases of one battery are needed, in one folder", where="sealed", value=folders)
+    figures = figures_of(Path(folders[0]))
     truths = [read_truth(case) for case in sealed]
     ids = sorted({name for truth in truths for name in truth.candidates})
-    figures = figures_of(sealed[0].parent)
     pairs, failed = _collected(out, truths)
     every_pair = [pair for some in pairs.values() for pair in some]
     unnamed = {f"{kind}, unnamed": [pair for pair in some if pair[0].no_data_sheet] for kind, some in pairs.items()}

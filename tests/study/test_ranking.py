@@ -7,7 +7,9 @@ import pytest
 
 from mixedlub.report.page import ranking_rows
 from mixedlub.report.ranking import ranking_drawn
+from mixedlub.schema.findings import collected
 from mixedlub.study import ranking, read_study, run_study
+from mixedlub.study.bands import _tell_cut
 from mixedlub.study.costs import efficient
 from mixedlub.study.draws import loss_draws
 from mixedlub.study.rank import probabilities, ranking_tables
@@ -147,6 +149,24 @@ def test_a_low_end_cut_at_no_friction_is_told_and_drawn_where_it_is(sd, cut, wri
     least = found["lowest_power_loss"].mean()
     assert np.quantile(draws, 0.159 if cut else 0.05) == pytest.approx(least, rel=5e-3)
     assert (draws.min() == pytest.approx(least, rel=1e-9)) == cut
+
+
+@pytest.mark.parametrize(("sd", "said"), [(0.05, "begin at -0.032, below 0"), (0.0304, "99 % of the way down")])
+def test_a_cut_end_is_told_as_the_way_down_from_the_stated_value(sd, said):
+    with collected() as told:
+        _tell_cut({"boundary_friction": sd}, {"boundary_friction": 0.05})
+    assert said in told[0].text
+
+
+def test_no_draw_goes_below_no_friction_where_the_band_ends_just_above_it(write_study):
+    """The least draw moves by 2 % between the bands that end 1 % below and above no friction."""
+    rough = {"surfaces": {"fine": FIRM}, **LEVELS, "conditions__speed_rpm": [500], "boundary_friction": 0.05}
+    least = []
+    for reach in (0.99, 1.01):
+        sd = 0.05 / (1.6449 * reach)
+        found = run_study(read_study(write_study(**rough, name=f"at_{reach}", uncertainty={"boundary_friction": sd})))
+        least.append(loss_draws(found).min())
+    assert least[1] == pytest.approx(least[0], rel=0.02)
 
 
 def test_a_ranking_has_intervals_with_bands_and_none_without(write_study):

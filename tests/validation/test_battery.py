@@ -11,7 +11,7 @@ from mixedlub.case.folder import read_case
 from mixedlub.case.forward import Forward
 from mixedlub.validation import sample_case as sampling
 from mixedlub.validation.answers import read_truth
-from mixedlub.validation.battery import generate, make, plan
+from mixedlub.validation.battery import MARK, generate, make, plan, read_mark
 from mixedlub.validation.case_folder import read_case as read_planted
 from mixedlub.validation.case_folder import toml
 from mixedlub.validation.contact import Calibration
@@ -65,6 +65,15 @@ def test_a_folder_holds_one_battery_only(battery):
         generate(battery[0].parent, seed=12, cases=8)
     with pytest.raises(InputError, match="other kinds, seed"):
         generate(battery[0].parent, seed=11, cases=8, kinds=("disc",))
+    with pytest.raises(InputError, match="or planner"):
+        generate(battery[0].parent, seed=11, cases=8, dealt=lambda seed, cases, kinds: plan(seed, cases, kinds))
+
+
+@pytest.mark.parametrize("text", ["", '{"seed": 1', "[1, 2]", '{"dealt_by": ["plan"]}', '{"dealt_by": null}'])
+def test_a_damaged_file_of_a_battery_is_refused(text, tmp_path):
+    (tmp_path / MARK).write_text(text)
+    with pytest.raises(InputError, match="damaged"):
+        read_mark(tmp_path)
 
 
 @pytest.mark.parametrize(("kinds", "fewest"), [(("gear_pair", "disc"), 5), (OTHERS, 25), (tuple(KINDS), 35)])

@@ -85,3 +85,9 @@ def test_laws_are_scored_by_quantity_and_shape_and_by_the_error_inside_and_beyon
     assert found["cover_beyond"].value == pytest.approx(0.9, abs=1e-3)
     assert [lost[key].value for key in ("said", "stage", "shape", "inside")] == [1.0, 0.0, 0.0, 1.0]
     assert lost["stage_claimed"].count == found["none_claimed"].count == 0
+
+
+def test_a_case_without_effects_counts_in_no_figure_of_laws(case: Path) -> None:
+    truth = replace(read_truth(case), group="none", effects=(), label=frozenset({"none"}))
+    counted = {f.key for f in OUTSIDE_FIGURES if f.row([(truth, silent(truth))]).count}
+    assert counted <= {"false_name", "seconds", "slowest"}

@@ -181,6 +181,12 @@ def test_a_battery_without_a_known_name_is_refused(dealt, tmp_path, mark, said):
         judge(tmp_path, _answered(dealt[:2], tmp_path, mark))
 
 
+def test_cases_of_no_folder_or_of_two_are_refused(tmp_path):
+    for folders in ([], [tmp_path / "a" / "case_000", tmp_path / "b" / "case_000"]):
+        with pytest.raises(InputError, match="cases of one battery"):
+            judge(tmp_path, folders)
+
+
 @pytest.mark.long
 def test_counts_by_kind_wrong_answers_and_break_downs(named_orders, tmp_path):
     with without_rivals():

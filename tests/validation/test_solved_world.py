@@ -14,7 +14,7 @@ from mixedlub.validation.rivals import descend
 from mixedlub.validation.solved import table as tables
 from mixedlub.validation.solved import world
 from mixedlub.validation.solved.deal import plan_solved
-from mixedlub.validation.solved.solver import Place, Unsolved
+from mixedlub.validation.solved.solver import Place, UnsolvedError
 from mixedlub.validation.solved.table import Physics, Table, between, grid_of, ratios, shares, slip_of
 from mixedlub.validation.solved.world import SWITCHES, draw, laws_of, switched
 from profiles.errors import InputError
@@ -167,7 +167,7 @@ def test_a_rig_with_a_contact_without_solution_is_drawn_again(monkeypatch):
     def first_fails(*order):
         tried.append(order)
         if len(tried) == 1:
-            raise Unsolved("the contact has no solution")
+            raise UnsolvedError("the contact has no solution")
         return "second"
 
     monkeypatch.setattr(world, "_drawn", first_fails)

@@ -25,7 +25,7 @@ THINNEST = 1e-5
 """Smallest film of an iteration (b^2/R)."""
 
 
-class Unsolved(InputError):
+class UnsolvedError(InputError):
     """A contact whose iteration does not settle."""
 
 
@@ -257,7 +257,7 @@ def solve(
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         found = _settled(problem, guess, thermal)
     if found is None:
-        raise Unsolved("the contact has no solution", where="solved contact", value=place)
+        raise UnsolvedError("the contact has no solution", where="solved contact", value=place)
     return _solution(problem, found)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from mixedlub.validation.contact import Calibration, Contact, Inputs, dowson_toyoda, press, shear, start
 from mixedlub.validation.solved.fluid import Law, eyring, fluid_of
 from mixedlub.validation.solved.mesh import CELLS
-from mixedlub.validation.solved.solver import Place, Solution, Unsolved, solve
+from mixedlub.validation.solved.solver import Place, Solution, UnsolvedError, solve
 
 SLIPS, LOADS, SPEEDS, LOADS_OF_TEETH = 5, 3, 5, 5
 """Nodes along each condition; loads on teeth spread more."""
@@ -37,11 +37,11 @@ def solution(rig: Inputs, calibration: Calibration, physics: Physics, place: Pla
     """Solution of one contact of a rig with a calibrated oil, on the first number of cells that has one."""
     law = eyring(rig.oil.eyring_stress * calibration.eyring_stress) if physics.law is None else physics.law
     fluid = fluid_of(rig.oil, law, calibration.viscosity, calibration.pressure_viscosity)
-    failure = Unsolved("")
+    failure = UnsolvedError("")
     for cells in OTHER_CELLS:
         try:
             return solve(fluid, place, physics.thermal, cells)
-        except Unsolved as none:
+        except UnsolvedError as none:
             failure = none
     raise failure
 

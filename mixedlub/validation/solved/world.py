@@ -15,7 +15,7 @@ from mixedlub.validation.planted import FORMS
 from mixedlub.validation.rig import FILM, SHEAR, Form, Knob, Law, Rig
 from mixedlub.validation.rigs import discs, gears
 from mixedlub.validation.solved.fluid import carreau, eyring, limited
-from mixedlub.validation.solved.solver import Unsolved
+from mixedlub.validation.solved.solver import UnsolvedError
 from mixedlub.validation.solved.table import Physics, Table, table
 from mixedlub.validation.worlds import follow
 from mixedlub.validation.worlds.catalogue import Followed, World, following
@@ -130,7 +130,7 @@ def draw(
     contact that has no solution is drawn again.
     """
     for _ in range(MOST_RIGS):
-        with suppress(Unsolved):
+        with suppress(UnsolvedError):
             return _drawn(rng, kind, switch, full_base)
     raise InputError("every rig has a contact without solution", where=kind, value=switch)
 

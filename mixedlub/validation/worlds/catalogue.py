@@ -73,12 +73,11 @@ def has_contact(rig: Rig) -> bool:
     return rig.kind == "viscosity" or "lubricant" in rig.settings
 
 
-def shows(rig: Rig, law: Law) -> bool:
-    """Whether the readings of a rig distinguish the law from the base model's; assumed for laws with needs."""
+def shows(rig: Rig, law: Law, base: np.ndarray) -> bool:
+    """Whether a law changes the readings of the base model on a rig, ``base``; assumed for laws with needs."""
     if law.needs:
         return True
     z = np.zeros(len(rig.names))
-    base = rig.model(z, ())
     return bool(np.max(np.abs(rig.model(z, [law.act(law.middle)]) / base - 1)) > SHOWN)
 
 
@@ -86,7 +85,8 @@ def laws_on(rig: Rig) -> dict[str, tuple[Law, ...]]:
     """Laws that a rig can follow and that change its readings, by id."""
     if not has_contact(rig):
         return {}
-    every = [law for law in OF_KIND.get(rig.kind, ()) if shows(rig, law)]
+    base = rig.model(np.zeros(len(rig.names)), ())
+    every = [law for law in OF_KIND.get(rig.kind, ()) if shows(rig, law, base)]
     found = {name: tuple(law for law in every if law.id == name) for name in sorted(LAWS)}
     return {name: some for name, some in found.items() if some}
 
