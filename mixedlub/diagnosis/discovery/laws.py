@@ -77,8 +77,8 @@ class Rival:
 class FoundLaw:
     """A law that predicts left-out levels better than calibration, with a search in which it is an explanation.
 
-    ``data``: its file; ``ranges``: ends of its variables; ``weights``: probabilities of the law, of proved laws of other
-    form that cannot be told apart from it, and of the discrepancy.
+    ``data``: its file; ``ranges``: ends of its variables; ``weights``: probabilities of the law, of proved laws of
+    another form that cannot be told apart from it, and of the discrepancy.
     """
 
     effect: Effect

@@ -58,7 +58,7 @@ def replacements(search: Search, every: Sequence[Variable]) -> list[Candidate]:
 
 
 def _held(problem: Problem, run: Run, name: str) -> tuple[Target, np.ndarray] | None:
-    """A quantity held constant, and the change of each reading in sd; None if the chain lacks it, or if it hardly varies or matters."""
+    """A quantity held constant, and changes of readings in sd; None if it is not there, or hardly varies or matters."""
     forward = problem.forward
     if name not in forward.inputs and name not in {step for step, _ in forward.chain}:
         return None
