@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -90,5 +91,5 @@ def test_laws_of_one_form_on_quantities_that_look_alike_count_once() -> None:
     load = Variable("load_N", np.array([1.0, 2.0, 4.0]))
     alike = [Target("friction", REPLACE, np.ones(3)), Target("reading", REPLACE, 2.0 * np.ones(3))]
     other = Target("film_thickness", REPLACE, np.array([1.0, -1.0, 0.0]))
-    laws = [SimpleNamespace(candidate=_replacement(load, target=one)) for one in (*alike, other)]
+    laws: list[Any] = [SimpleNamespace(candidate=_replacement(load, target=one)) for one in (*alike, other)]
     assert _distinct(laws) == [laws[0], laws[2]]
