@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from mixedlub.chain.effect import Effect
+from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.own_laws.law import FileLaw, as_hypothesis, law_of_text, read_law
 from mixedlub.own_laws.usable import ABSENT, check_usable
 from mixedlub.schema.past import Past
@@ -67,13 +68,13 @@ def pasts_read(laws: Iterable[Effect], columns: Collection[str]) -> list[Past]:
 
 
 def columns_read(laws: Iterable[Effect], rows: Mapping[str, Any]) -> dict[str, Any]:
-    """Columns of a recording that laws read as recorded, as inputs of the shape (rows, 1)."""
+    """Columns of a recording that laws read as recorded, or that bound them, as inputs of the shape (rows, 1)."""
     return {
-        read.argument: rows[read.argument][:, None]
+        name: rows[name][:, None]
         for law in laws
         if isinstance(law.law, FileLaw)
-        for read in law.law.reads.values()
-        if read.argument in rows
+        for name in (*(read.argument for read in law.law.reads.values()), *law.valid.keys() - GLOSSARY.keys())
+        if name in rows
     }
 
 

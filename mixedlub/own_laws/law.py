@@ -126,7 +126,7 @@ def _law(file: LawFile, text: str, path: Path, columns: Collection[str]) -> Effe
         parameters=tuple(_parameter(name, p) for name, p in file.parameters.items()),
         fingerprint={},
         separated_by=file.separated_by or _separated(law),
-        valid=dict(_range(name, ends, reads, where) for name, ends in file.range.items()),
+        valid=dict(_range(name, ends, reads, columns, where) for name, ends in file.range.items()),
     )
 
 
@@ -186,9 +186,11 @@ def _parameter(name: str, p: LawParameter) -> Parameter:
     )
 
 
-def _range(name: str, ends: Ends, reads: Mapping[str, Read], where: str) -> tuple[str, tuple[float, float]]:
-    """Quantity of a range with its ends in SI; a column that the expression reads keeps its unit."""
-    read = reads.get(name) or _read(name, ())
+def _range(
+    name: str, ends: Ends, reads: Mapping[str, Read], columns: Collection[str], where: str
+) -> tuple[str, tuple[float, float]]:
+    """Quantity of a range with its ends in SI; a column read by the expression, or by no other name, keeps its unit."""
+    read = reads.get(name) or _read(name, ()) or _read(name, columns)
     if read is None:
         rule = f"no such quantity, with or without a unit; {nearest(without_unit(name), GLOSSARY)}"
         raise InputError(rule, where=f"{where}: range", value=name)

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from mixedlub.case.folder import conditions_for
-from mixedlub.diagnosis.assessment.model_averaging import averaged, ends_of_mixture
+from mixedlub.diagnosis.assessment.model_averaging import averaged, ends_of_mixture, with_noise_about
+from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.discrepancy.smooth import DiscrepancyForm
 from mixedlub.diagnosis.explanation import DISCREPANCY
@@ -55,6 +56,21 @@ def test_the_interval_of_an_average_leaves_five_percent_on_either_side() -> None
     assert [low[0], high[0]] == pytest.approx([-1.691, 1.691], abs=2e-3)
 
 
+def test_a_prediction_outside_the_quantiles_has_the_noise_on_both_sides() -> None:
+    share, means = np.array([[0.96], [0.04]]), np.array([[0.0], [100.0]])
+    low, high = ends_of_mixture(share, means, np.ones((2, 2, 1)))
+    assert high[0] < 4.0  # the mean
+    low, high = with_noise_about((share * means).sum(axis=0), np.ones(1), low, high)
+    assert [low[0], high[0]] == pytest.approx([-1.6250, 5.6449], abs=1e-3)  # quantile of 0.05/0.96
+
+
+def test_a_verdict_of_little_weight_is_averaged_too(offset: Diagnosis) -> None:
+    d, named = offset, offset.posterior.verdict
+    weights = {**dict.fromkeys(d.refined, 0.0), named: 1e-3, DISCREPANCY: 0.999}
+    found = averaged(d.search, Posterior(weights, named, (named,)), d.refined, d.search.problem.rows)
+    assert np.isfinite(found.predicted).all()
+
+
 @pytest.fixture(scope="module")
 def steep(
     make_case: Callable[..., Path], excluded: tuple[str, ...], tmp_path_factory: pytest.TempPathFactory
@@ -73,8 +89,8 @@ def test_beyond_its_range_a_law_is_one_of_several(steep: Diagnosis) -> None:
     assert law is not None
     assert steep.handed_on == "law"
     assert sum(law.weights.values()) == pytest.approx(1.0)
-    alike = sum(rival.equivalent for rival in law.rivals)
-    assert len(law.weights) == 2 + alike
+    alike = sum(rival.equivalent and rival.heldout is not None for rival in law.rivals)
+    assert 2 <= len(law.weights) <= 2 + alike
     assert (
         0.0
         < law.weights[DISCREPANCY]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,6 +14,10 @@ from mixedlub.case.files import case_files
 from mixedlub.case.folder import read_case
 from mixedlub.case.simulation import simulate
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.discovery.files import as_effect, law_data
+from mixedlub.diagnosis.discovery.laws import _distinct, _leading_replacements
+from mixedlub.diagnosis.discovery.screening import REPLACE, Candidate, Target, constant_term
+from mixedlub.diagnosis.discovery.terms import Variable, single_terms
 from mixedlub.diagnosis.report.files import write
 from mixedlub.schema.findings import collected
 
@@ -48,3 +53,43 @@ def test_a_replacement_holds_where_all_conditions_were_recorded(plain: Diagnosis
     with collected():
         simulated = simulate(case)[case.quantity].to_numpy()
     assert simulated == pytest.approx(0.05 * (rows["load_N"] / 3000.0) ** -0.3, rel=0.02)
+
+
+def _replacement(*variables: Variable, score: float = 0.0, target: Target | None = None) -> Candidate:
+    powers = [next(t for t in single_terms(v) if t.shape == "power") for v in variables]
+    terms = (constant_term(3), *powers)
+    return Candidate(target or Target("viscosity", REPLACE, np.ones(3), 0.1), terms, (0.1,) * len(terms), score)
+
+
+def test_a_replacement_is_bounded_by_columns_beside_the_glossary_and_not_by_time() -> None:
+    c = _replacement(Variable("pressure_MPa", np.array([1.0, 10.0, 100.0])))
+    ranges = {"pressure_MPa": [1.0, 100.0], "temperature_C": [40.0, 100.0], "time_s": [0.0, 9.0]}
+    data = law_data("found_law", c, c.target.column, ranges)
+    law = as_effect(data, ["temperature_C", "pressure_MPa", "time_s"])
+    assert law.valid == {"pressure_MPa": (1.0, 100.0), "temperature_C": (40.0, 100.0)}
+
+
+def test_only_the_best_replacement_with_fewer_powers_is_fitted_too() -> None:
+    load, speed = (Variable(name, np.array([1.0, 2.0, 4.0])) for name in ("load_N", "entrainment_speed_m_s"))
+    target = Target("friction", REPLACE, np.ones(3), 0.05)
+    both = [_replacement(load, speed, score=s, target=target) for s in (50.0, 49.0, 48.0)]
+    fewer = [_replacement(load, score=s, target=target) for s in (30.0, 20.0, -90.0)]
+    assert _leading_replacements([*both, *fewer], 8.0) == [*both, fewer[0]]
+    assert _leading_replacements([both[0], fewer[2]], 8.0) == both[:1]
+    assert _leading_replacements(fewer, 40.0) == []
+
+
+def test_a_replacement_may_read_a_quantity_with_the_name_of_its_own_in_it() -> None:
+    coefficient = single_terms(Variable("pressure_viscosity", np.array([1.0, 2.0, 4.0])))[0]
+    assert "pressure_viscosity" in coefficient.read
+    assert "viscosity" not in coefficient.read
+
+
+def test_laws_of_one_form_on_quantities_that_look_alike_count_once() -> None:
+    from types import SimpleNamespace
+
+    load = Variable("load_N", np.array([1.0, 2.0, 4.0]))
+    alike = [Target("friction", REPLACE, np.ones(3)), Target("reading", REPLACE, 2.0 * np.ones(3))]
+    other = Target("film_thickness", REPLACE, np.array([1.0, -1.0, 0.0]))
+    laws: list[Any] = [SimpleNamespace(candidate=_replacement(load, target=one)) for one in (*alike, other)]
+    assert _distinct(laws) == [laws[0], laws[2]]

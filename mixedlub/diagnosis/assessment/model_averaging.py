@@ -57,7 +57,7 @@ def averaged(search: Search, judged: Posterior, refined: dict[Explanation, Refin
     rows = NewRows(search, table, search.null_fit.prediction if own else None)
     calibrated = rows.problem.predict(NOTHING, search.null_fit.z)
     each: dict[Explanation, Prediction] = {
-        k: rows.of_fit(r) for k, r in refined.items() if judged.weights[k] >= NEGLIGIBLE
+        k: rows.of_fit(r) for k, r in refined.items() if judged.weights[k] >= NEGLIGIBLE or k == judged.verdict
     }
     if judged.weights[DISCREPANCY] >= NEGLIGIBLE:
         each[DISCREPANCY] = rows.of_discrepancy()
@@ -70,11 +70,13 @@ def averaged(search: Search, judged: Posterior, refined: dict[Explanation, Refin
     means, variances = np.where(is_finite, means, 0.0), np.where(is_finite[:, None], variances, 0.0)
     mean = each[NOTHING].mean if judged.verdict == NOTHING else (share * means).sum(axis=0)
     sd, shared_variance = rows.noise_at(mean)
-    low, high = ends_of_mixture(share, means, np.sqrt(variances + sd**2 + shared_variance))
+    noise = sd**2 + shared_variance
+    low, high = ends_of_mixture(share, means, np.sqrt(variances + noise))
     at_verdict = each[judged.verdict].base
     mismatch = np.zeros(mean.size) if judged.verdict == NOTHING else (mean - at_verdict) / sd
     nominal = rows.forward.predict()
-    ends = problem.inverse(np.minimum(low, mean)), problem.inverse(np.maximum(high, mean))
+    low, high = with_noise_about(mean, np.sqrt(noise), low, high)
+    ends = problem.inverse(low), problem.inverse(high)
     size = np.abs(problem.inverse(mean)) if problem.case.kind.logarithmic else 1.0
     return Predicted(
         table, nominal, problem.inverse(calibrated), problem.inverse(mean), *ends, mismatch, np.asarray(sd * size)
@@ -103,6 +105,17 @@ def ends_of_mixture(share: np.ndarray, means: np.ndarray, sds: np.ndarray) -> tu
             inner, outer = np.where(beyond, middle, inner), np.where(beyond, outer, middle)
         found.append(sign * 0.5 * (inner + outer))
     return found[0], found[1]
+
+
+def with_noise_about(
+    mean: np.ndarray, noise: np.ndarray, low: np.ndarray, high: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Ends of an interval that has the noise on both sides of its mean: the mean may lie outside a mixture's quantiles.
+
+    >>> [end.round(3).tolist() for end in with_noise_about(np.full(1, 4.0), np.ones(1), np.zeros(1), np.ones(1))]
+    [[0.0], [5.645]]
+    """
+    return np.minimum(low, mean - NINETY * noise), np.maximum(high, mean + NINETY * noise)
 
 
 def outlier_chances(search: Search, judged: Posterior, refined: dict[Explanation, Refined]) -> np.ndarray:

@@ -32,8 +32,10 @@ from mixedlub.schema.table import Table
 class Prediction:
     """Predicted readings, their variance, and the base model at the same calibration.
 
-    ``lean`` (2, rows) is added to the variance for the lower and the upper end of an interval. ``shared``: columns with
-    a covariance of one, through which the rows share their uncertainty; the rest of the variance is of each row alone.
+    ``lean`` (2, rows) is added to the variance for the lower and the upper end of an interval. It has the growth of the
+    discrepancy beyond the recorded range too: joint predictions have their own, which rows share. ``shared``: columns
+    with a covariance of one, through which the rows share their uncertainty; the rest of the variance is of each row
+    alone.
     """
 
     mean: np.ndarray

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
@@ -38,7 +37,6 @@ def law_data(name: str, c: Candidate, sizes: np.ndarray, ranges: Mapping[str, li
             text = text.replace(f"<{own}>", own)
         parts.append(letter if text == "1" else f"{letter}*{text}")
     body = "+".join(parts)
-    read = words_of(" ".join(v for t in c.terms for v in t.variables))
     return {
         "id": name,
         "description": "A law found in the readings, empirical.",
@@ -48,18 +46,8 @@ def law_data(name: str, c: Candidate, sizes: np.ndarray, ranges: Mapping[str, li
         "expression": body if c.target.form == ADD else _as_factor(c, parts),
         "parameters": parameters,
         "source": SOURCE,
-        # A replacement also undoes the conditions that it does not read, as far as they were recorded.
-        "range": {name: ends for name, ends in ranges.items() if name in read or c.target.form == REPLACE},
+        "range": {name: ends for name, ends in ranges.items() if c.is_bounded_by(name)},
     }
-
-
-def words_of(text: str) -> set[str]:
-    """Names in an expression.
-
-    >>> sorted(words_of("abs(sliding_speed_m_s)^2"))
-    ['2', 'abs', 'sliding_speed_m_s']
-    """
-    return set(re.findall(r"\w+", text))
 
 
 def _amplitude_sd(c: Candidate, place: int, sizes: np.ndarray) -> float:

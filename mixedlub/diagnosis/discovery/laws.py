@@ -14,15 +14,16 @@ from mixedlub.chain.priors import LogNormal, Normal, Prior, Uniform
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut, LevelsOut
 from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.assessment.prediction import Refined, refine
-from mixedlub.diagnosis.discovery.files import LETTERS, as_effect, law_data, words_of
+from mixedlub.diagnosis.discovery.files import LETTERS, as_effect, law_data
 from mixedlub.diagnosis.discovery.past_terms import past_terms, past_variables
 from mixedlub.diagnosis.discovery.replacements import replacements
-from mixedlub.diagnosis.discovery.screening import ADD, REPLACE, Candidate, Target, price, screened
+from mixedlub.diagnosis.discovery.screening import ADD, Candidate, Target, price, screened
 from mixedlub.diagnosis.discovery.terms import Variable, variables
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.likelihood import outlier_chance
 from mixedlub.diagnosis.inference.map_fit import Fit, map_fit
 from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.search.prior_odds import log_odds_of_laws
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.assessment import CHANCE_GAIN, COLLINEAR, OUTSIDE_OF_END
 from mixedlub.diagnosis.settings.discovery import (
@@ -76,14 +77,15 @@ class Rival:
 class FoundLaw:
     """A law that predicts left-out levels better than calibration, with a search in which it is an explanation.
 
-    ``data``: its file; ``ranges``: ends of its variables; ``weights``: probabilities of the law, of laws that cannot be
-    told apart from it, and of the discrepancy.
+    ``data``: its file; ``ranges``: ends of its variables; ``weights``: probabilities of the law, of proved laws of
+    another form that cannot be told apart from it, and of the discrepancy.
     """
 
     effect: Effect
     data: Mapping[str, Any]
     search: Search
     explanation: Explanation
+    candidate: Candidate
     refined: Mapping[Explanation, Refined]
     heldout: HeldOut
     rivals: tuple[Rival, ...]
@@ -104,8 +106,8 @@ class FoundLaw:
         """Recorded ranges of the numeric conditions; of all if the law reads quantities of the chain."""
         rows = self.search.problem.rows
         names = [axis.name for axis in self.search.space.axes if not axis.named and axis.name in rows]
-        own = [name for name in names if name in self.ranges]
-        alone = len(own) == len(self.ranges) and self.data["form"] != REPLACE
+        own = [name for name in names if self.candidate.is_bounded_by(name)]
+        alone = len(own) == len(self.ranges)
         used = own if alone else [name for name in names if name not in PASSING]
         return {name: (float(np.min(rows[name])), float(np.max(rows[name]))) for name in used}
 
@@ -136,12 +138,13 @@ def find_law(search: Search, levels: LevelsOut) -> FoundLaw | None:
     every = [*present, *pasts.values()]
     if not every:
         return None
-    tried = [c for c in screened(search, present, past_terms(search, pasts)) if c.score > FIT_GAIN]
-    if not tried:
-        return None
-    forms = _fitted(search, every, _kinds(tried, len(every)))
+    every_candidate = screened(search, present, past_terms(search, pasts))
+    tried = [c for c in every_candidate if c.score > FIT_GAIN]
+    forms = _fitted(search, every, _kinds(tried, len(every)) if tried else [])
     elsewhere = [c for w in forms[:FORMS_ELSEWHERE] for c in _on_other_quantities(w, search, tried)]
-    replacing = _leading_replacements(replacements(search, present), max(FIT_GAIN, tried[0].score - LISTED_BEHIND))
+    every_replacement = replacements(search, present)
+    least = max([FIT_GAIN, *(c.score - LISTED_BEHIND for c in tried[:1])])
+    replacing = _leading_replacements(every_replacement, least)
     weighed = [*forms, *_fitted(search, every, [*elsewhere, *replacing], len(forms))]
     weighed = sorted((w for w in weighed if w.log_weight > search.null_fit.evidence + FIT_GAIN), key=_by_weight)
     if not weighed:
@@ -160,7 +163,8 @@ def find_law(search: Search, levels: LevelsOut) -> FoundLaw | None:
     kept, single = held[best.effect.id], search.problem.n_per_effective
     near = [w for w in weighed if w is not best and w.log_weight > best.log_weight - LISTED_BEHIND][:RIVALS]
     rivals = tuple(_rival(w, best, held, single) for w in near)
-    alike = [best, *(w for w, rival in zip(near, rivals, strict=True) if rival.equivalent)]
+    proved = [w for w, rival in zip(near, rivals, strict=True) if rival.equivalent and rival.heldout is not None]
+    alike = _distinct([best, *proved])
     final = _with_laws(full.problem, {w.effect.id: w.effect for w in alike})
     fits = {w.fit.explanation: w.fit for w in alike}
     if full is not search:
@@ -168,23 +172,35 @@ def find_law(search: Search, levels: LevelsOut) -> FoundLaw | None:
     own_search = replace(full, problem=final, fits={**full.fits, **fits}, screen=None, scores={**full.scores})
     refined = {key: refine(own_search, fit) for key, fit in {**fits, NOTHING: full.null_fit}.items()}
     key = best.fit.explanation
-    read = words_of(best.data["expression"])
     ranges = {
-        v.text: (float(v.values.min()), float(v.values.max()))
-        for v in present
-        if v.text in read or best.data["form"] == REPLACE
+        v.text: (float(v.values.min()), float(v.values.max())) for v in present if best.candidate.is_bounded_by(v.text)
     }
+    # The evidence of the discrepancy has the odds of its base, and no choice of a quantity.
+    base, odds = search.discrepancy.base.explanation, search.prior_odds
+    prior = log_odds_of_laws(len(set(odds.laws) & set(base.effects))) + odds.log_expected(base)
+    prior -= np.log(len({(c.target.quantity, c.target.form) for c in (*every_candidate, *every_replacement)}))
     return FoundLaw(
         best.effect,
         _valued(best.data, final, fits[key]),
         own_search,
         key,
+        best.candidate,
         refined,
         kept.single_reading_units(single),
         rivals,
         ranges,
-        _shares({w.fit.explanation: w.log_weight for w in alike} | {DISCREPANCY: search.discrepancy.evidence}),
+        _shares({w.fit.explanation: w.log_weight + prior for w in alike} | {DISCREPANCY: search.discrepancy.evidence}),
     )
+
+
+def _distinct(laws: list[Weighed]) -> list[Weighed]:
+    """The first law of each form, where the changes of quantities look alike."""
+    found: list[Weighed] = []
+    for w in laws:
+        own = w.candidate
+        if not any(c.candidate.kind == own.kind and _alike(c.candidate.target, own.target) for c in found):
+            found.append(w)
+    return found
 
 
 def _shares(logs: Mapping[Explanation, float]) -> dict[Explanation, float]:
@@ -255,8 +271,9 @@ def _kinds(tried: list[Candidate], count: int) -> list[Candidate]:
 def _leading_replacements(ranked: list[Candidate], least: float) -> list[Candidate]:
     """Replacements to be fitted: the best above a score, and the best one with fewer powers."""
     near = [c for c in ranked if c.score > least][:REPLACEMENTS_FITTED]
-    fewer = [c for c in ranked if near and c.target is near[0].target and set(c.kind) < set(near[0].kind)]
-    return [*near, *(c for c in fewer if c not in near)]
+    above = [c for c in ranked if c.score > least and c.target is near[0].target]
+    fewer = next((c for c in above if set(c.kind) < set(near[0].kind)), None)
+    return near if fewer is None or fewer in near else [*near, fewer]
 
 
 def _group(c: Candidate) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
@@ -30,14 +29,6 @@ from mixedlub.diagnosis.settings.inference import FINITE_STEP
 from mixedlub.recording.conditions import PASSING
 
 
-@dataclass(frozen=True, eq=False)
-class _Constant:
-    """A quantity held constant: change of each reading in sd, and slope with the log of the constant."""
-
-    target: Target
-    change: np.ndarray
-
-
 def replacements(search: Search, every: Sequence[Variable]) -> list[Candidate]:
     """Replacements by their log posterior over none, best first, on models linear about a constant quantity."""
     problem, base = search.problem, search.discrepancy.base
@@ -51,22 +42,23 @@ def replacements(search: Search, every: Sequence[Variable]) -> list[Candidate]:
         held = None if name == READING else _held(problem, run, name)
         if held is None:
             continue
-        slope = held.target.column[rows]
-        others = [t for t in powers if name not in t.variables[0]]
+        target, change = held
+        slope = target.column[rows]
+        others = [t for t in powers if name not in t.read]
         for few in ((), *((t,) for t in others), *combinations(others, 2)):
             terms = (constant_term(problem.y.size), *few)
             sds = np.array([LOG_FACTOR_SD, *(EXPONENT_SD for _ in few)])
             columns = np.column_stack([t.values[rows] * slope for t in terms]) * sds
-            own = Whitened(np.hstack([fixed, columns]), weight, base.anchor[rows] - held.change[rows])
+            own = Whitened(np.hstack([fixed, columns]), weight, base.anchor[rows] - change[rows])
             amplitudes = sds * (columns.T @ own.white_target)
             choices = len(few) * np.log(max(len(others), 1))
             score = 0.5 * (before - own.misfit - own.log_volume_over(fixed)) - choices
-            found.append(Candidate(held.target, terms, tuple(map(float, amplitudes)), float(score)))
+            found.append(Candidate(target, terms, tuple(map(float, amplitudes)), float(score)))
     return sorted(found, key=lambda c: -c.score)
 
 
-def _held(problem: Problem, run: Run, name: str) -> _Constant | None:
-    """The model with a quantity held constant; None if the chain lacks it, or if it hardly varies or matters."""
+def _held(problem: Problem, run: Run, name: str) -> tuple[Target, np.ndarray] | None:
+    """A quantity held constant, and changes of readings in sd; None if it is not there, or hardly varies or matters."""
     forward = problem.forward
     if name not in forward.inputs and name not in {step for step, _ in forward.chain}:
         return None
@@ -86,7 +78,7 @@ def _held(problem: Problem, run: Run, name: str) -> _Constant | None:
     column, change = (moved - there) / FINITE_STEP / problem.sd, (there - run.prediction) / problem.sd
     if not np.isfinite(column + change).all() or np.max(np.abs(column)) <= NO_INFLUENCE:
         return None
-    return _Constant(Target(name, REPLACE, column, middle), change)
+    return Target(name, REPLACE, column, middle), change
 
 
 def _held_at(name: str, constant: float) -> Effect:

@@ -70,6 +70,11 @@ class Candidate:
         """Shapes and variables, which distinguish laws."""
         return tuple(sorted(f"{t.shape} of {' and '.join(t.variables)}" for t in self.terms))
 
+    def is_bounded_by(self, name: str) -> bool:
+        """Whether the law holds where a variable was recorded: it reads it, or undoes its part of the base model."""
+        undone = self.target.form == REPLACE and name not in PASSING
+        return undone or any(name in term.read for term in self.terms)
+
 
 def targets(search: Search) -> list[Target]:
     """Every quantity on which the readings depend, as factor and as addition."""

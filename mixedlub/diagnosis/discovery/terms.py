@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
@@ -90,6 +91,11 @@ class Term:
     priors: dict[str, tuple[str, float, float]]
     values: np.ndarray
     units: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def read(self) -> set[str]:
+        """Names in the text."""
+        return set(re.findall(r"\w+", self.text))
 
     def numbered(self, number: int) -> Term:
         """The term with its parameters marked by a number, so that two terms can stand together."""
