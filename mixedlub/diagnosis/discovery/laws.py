@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from mixedlub.chain.effect import Effect
-from mixedlub.chain.priors import LogNormal, Normal, Prior, Uniform
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut, LevelsOut
 from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.assessment.prediction import Refined, refine
-from mixedlub.diagnosis.discovery.files import LETTERS, as_effect, law_data
+from mixedlub.diagnosis.discovery.files import as_effect
+from mixedlub.diagnosis.discovery.fitting import Weighed, by_weight, fitted_laws, on_other_quantities, valued, with_laws
 from mixedlub.diagnosis.discovery.past_terms import past_terms, past_variables
 from mixedlub.diagnosis.discovery.replacements import replacements
-from mixedlub.diagnosis.discovery.screening import ADD, Candidate, Target, price, screened
-from mixedlub.diagnosis.discovery.terms import Variable, variables
+from mixedlub.diagnosis.discovery.screening import Candidate, Target, price, screened
+from mixedlub.diagnosis.discovery.terms import variables
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.likelihood import outlier_chance
 from mixedlub.diagnosis.inference.map_fit import Fit, map_fit
@@ -40,26 +39,8 @@ from mixedlub.diagnosis.settings.discovery import (
     SAME_WITHIN,
 )
 from mixedlub.diagnosis.settings.inference import LIKELY
-from mixedlub.own_laws import check_usable
 from mixedlub.recording.conditions import PASSING
-from mixedlub.running.parallel import shared_out
-from mixedlub.schema.past import past_of
 from mixedlub.schema.table import Table
-from profiles.errors import InputError
-
-NAME = "found_law"
-"""Id of a found law."""
-
-
-@dataclass(frozen=True, eq=False)
-class Weighed:
-    """A fitted law: log evidence plus log prior, fit, effect, and the file with the fitted values."""
-
-    log_weight: float
-    fit: Fit
-    effect: Effect
-    data: Mapping[str, Any]
-    candidate: Candidate
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,17 +121,17 @@ def find_law(search: Search, levels: LevelsOut) -> FoundLaw | None:
         return None
     every_candidate = screened(search, present, past_terms(search, pasts))
     tried = [c for c in every_candidate if c.score > FIT_GAIN]
-    forms = _fitted(search, every, _kinds(tried, len(every)) if tried else [])
-    elsewhere = [c for w in forms[:FORMS_ELSEWHERE] for c in _on_other_quantities(w, search, tried)]
+    forms = fitted_laws(search, every, _kinds(tried, len(every)) if tried else [])
+    elsewhere = [c for w in forms[:FORMS_ELSEWHERE] for c in on_other_quantities(w, search, tried)]
     every_replacement = replacements(search, present)
     least = max([FIT_GAIN, *(c.score - LISTED_BEHIND for c in tried[:1])])
     replacing = _leading_replacements(every_replacement, least)
-    weighed = [*forms, *_fitted(search, every, [*elsewhere, *replacing], len(forms))]
-    weighed = sorted((w for w in weighed if w.log_weight > search.null_fit.evidence + FIT_GAIN), key=_by_weight)
+    weighed = [*forms, *fitted_laws(search, every, [*elsewhere, *replacing], len(forms))]
+    weighed = sorted((w for w in weighed if w.log_weight > search.null_fit.evidence + FIT_GAIN), key=by_weight)
     if not weighed:
         return None
     laws = {w.effect.id: w.effect for w in weighed}
-    own = _with_laws(search.problem, laws)
+    own = with_laws(search.problem, laws)
     proof = _levels_with(levels, own, laws, {w.fit.explanation: w.fit for w in weighed})
     held = {
         w.effect.id: proof.held(w.fit.explanation, outlier_chance(w.fit.residual) > LIKELY) for w in _leading(weighed)
@@ -165,7 +146,7 @@ def find_law(search: Search, levels: LevelsOut) -> FoundLaw | None:
     rivals = tuple(_rival(w, best, held, single) for w in near)
     proved = [w for w, rival in zip(near, rivals, strict=True) if rival.equivalent and rival.heldout is not None]
     alike = _distinct([best, *proved])
-    final = _with_laws(full.problem, {w.effect.id: w.effect for w in alike})
+    final = with_laws(full.problem, {w.effect.id: w.effect for w in alike})
     fits = {w.fit.explanation: w.fit for w in alike}
     if full is not search:
         fits = {key: map_fit(final, key, fit.z, warm=True) for key, fit in fits.items()}
@@ -181,7 +162,7 @@ def find_law(search: Search, levels: LevelsOut) -> FoundLaw | None:
     prior -= np.log(len({(c.target.quantity, c.target.form) for c in (*every_candidate, *every_replacement)}))
     return FoundLaw(
         best.effect,
-        _valued(best.data, final, fits[key]),
+        valued(best.data, final, fits[key]),
         own_search,
         key,
         best.candidate,
@@ -207,10 +188,6 @@ def _shares(logs: Mapping[Explanation, float]) -> dict[Explanation, float]:
     """Probabilities from log weights."""
     total = np.logaddexp.reduce(list(logs.values()))
     return {key: float(np.exp(log - total)) for key, log in logs.items()}
-
-
-def _by_weight(w: Weighed) -> float:
-    return -w.log_weight
 
 
 def _is_law(kept: HeldOut, free: float) -> bool:
@@ -288,88 +265,12 @@ def _alike(one: Target, other: Target) -> bool:
     return bool(abs(one.column @ other.column) > COLLINEAR * size)
 
 
-def _on_other_quantities(w: Weighed, search: Search, tried: list[Candidate]) -> list[Candidate]:
-    """The form of a fitted law on every other quantity, from the fitted parameters."""
-    values = _with_laws(search.problem, {w.effect.id: w.effect}).parameters(w.fit.explanation, w.fit.z)[w.effect.id]
-    own = w.candidate.target
-    found: list[Candidate] = []
-    seen: list[Target] = []
-    terms = tuple(replace(t, start={name: float(values[name]) for name in t.start}) for t in w.candidate.terms)
-    for target in (c.target for c in tried):
-        if target is own or any(target is one for one in seen):
-            continue
-        seen.append(target)
-        if target.form == ADD and any(t.shape in ("power", "threshold") for t in terms):
-            continue
-        ratio = float(own.column @ target.column / (target.column @ target.column))
-        amplitudes = tuple(ratio * float(values[letter]) for letter in LETTERS[: len(terms)])
-        found.append(Candidate(target, terms, amplitudes, w.candidate.score))
-    return found
-
-
-def _fitted(search: Search, every: list[Variable], candidates: list[Candidate], before: int = 0) -> list[Weighed]:
-    """Candidates fitted through the whole model, best first; ``before``: laws that have their ids."""
-    offered = _offered(search, candidates, every, before)
-    own = _with_laws(search.problem, {law.id: law for law, _, _ in offered})
-    base = search.discrepancy.base.explanation
-    start = search.fits.get(base, search.null_fit)
-
-    def fitted(item: tuple[Effect, dict[str, Any], Candidate]) -> Fit | None:
-        key = Explanation.of(*base.effects, item[0].id)
-        try:
-            return map_fit(own, key, _start(own, key, item[0], start, search.problem), warm=True)
-        except np.linalg.LinAlgError:
-            return None
-
-    found = [
-        Weighed(fit.evidence + price(c, len(every)), fit, law, _valued(data, own, fit), c)
-        for fit, (law, data, c) in zip(shared_out(fitted, offered), offered, strict=True)
-        if fit is not None and np.isfinite(fit.evidence)
-    ]
-    return sorted(found, key=_by_weight)
-
-
-def _offered(
-    search: Search, leaders: list[Candidate], every: list[Variable], before: int
-) -> list[tuple[Effect, dict[str, Any], Candidate]]:
-    """The candidates as effects, without laws that cannot act in the chain."""
-    problem = search.problem
-    kind = problem.case.kind
-    ranges = {v.text: [float(v.values.min()), float(v.values.max())] for v in every if _has_range(v.text, kind.numbers)}
-    found: list[tuple[Effect, dict[str, Any], Candidate]] = []
-    for c in leaders:
-        number = before + len(found) + 1
-        # A law found earlier, and now part of the base model, keeps its id.
-        stem = f"{NAME}{len(problem.case.laws) or ''}"
-        name = f"{stem}_{number}" if number > 1 else stem
-        data = law_data(name, c, c.target.column, ranges)
-        try:
-            law = as_effect(data, kind.numbers)
-            inputs = {**problem.forward.inputs, **problem.forward.columns_of([law])}
-            check_usable(law, problem.forward.chain, inputs, "reading", kind.name)
-        except InputError:
-            continue
-        found.append((law, data, c))
-    return found
-
-
-def _has_range(name: str, columns: Collection[str]) -> bool:
-    """Whether a variable is a single present quantity, so that its range can be part of the file."""
-    return re.fullmatch(r"\w+", name) is not None and past_of(name, columns) is None
-
-
-def _with_laws(problem: Problem, laws: Mapping[str, Effect]) -> Problem:
-    """The problem of a case that has these laws too."""
-    case = replace(problem.case, laws={**problem.case.laws, **laws})
-    return replace(problem, case=case, forward=problem.forward.with_laws(case))
-
-
 def _levels_with(
     levels: LevelsOut, problem: Problem, laws: Mapping[str, Effect], fits: Mapping[Explanation, Fit]
 ) -> LevelsOut:
     """The folds of an answer, with laws and their fits."""
     search = replace(levels.search, problem=problem, fits={**levels.search.fits, **fits})
-    folds = tuple(replace(f, train=_with_laws(f.train, laws), test=_with_laws(f.test, laws)) for f in levels.folds)
+    folds = tuple(replace(f, train=with_laws(f.train, laws), test=with_laws(f.test, laws)) for f in levels.folds)
     return replace(levels, search=search, folds=folds, refitted={})
 
 
@@ -380,33 +281,4 @@ def _leading(weighed: list[Weighed]) -> list[Weighed]:
     for w in near:
         first.setdefault((w.data["acts_on"], w.data["form"]), w)
     rest = [w for w in near if not any(w is one for one in first.values())]
-    return sorted([*first.values(), *rest][:PROVED], key=_by_weight)
-
-
-def _start(problem: Problem, key: Explanation, law: Effect, base: Fit, plain: Problem) -> np.ndarray:
-    """Coordinates of the base fit and of the screened parameters."""
-    own = plain.own_coordinates(base.explanation, base.z)
-    parts = [base.z[: problem.calibration_size]]
-    for e in problem.effects(key):
-        parts.append(np.array([_coordinate(p.prior, p.usual) for p in e.parameters]) if e.id == law.id else own[e.id])
-    return np.concatenate(parts)
-
-
-def _coordinate(prior: Prior, value: float) -> float:
-    """Standard-normal coordinate of a value under a prior of a found law."""
-    from statistics import NormalDist
-
-    if isinstance(prior, Normal):
-        return (value - prior.mean) / prior.sd
-    if isinstance(prior, LogNormal):
-        return float(np.log(value / prior.median)) / prior.spread
-    assert isinstance(prior, Uniform)
-    share = (value - prior.low) / (prior.high - prior.low)
-    return NormalDist().inv_cdf(min(max(share, 1e-3), 1.0 - 1e-3))
-
-
-def _valued(data: Mapping[str, Any], problem: Problem, fit: Fit) -> dict[str, Any]:
-    """The file of a law with its fitted values."""
-    values = problem.parameters(fit.explanation, fit.z)[data["id"]]
-    parameters = {name: {**own, "value": float(f"{values[name]:.6g}")} for name, own in data["parameters"].items()}
-    return {**data, "parameters": parameters}
+    return sorted([*first.values(), *rest][:PROVED], key=by_weight)
