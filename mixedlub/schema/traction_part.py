@@ -81,7 +81,7 @@ class Traction(Section):
         return self
 
     def told(self, stated: Collection[str]) -> Iterator[Finding]:
-        """Findings on the stresses that are read, and on those that ``stated`` effects replace."""
+        """Findings on the stresses in use, and on stresses replaced by ``stated`` effects."""
         (low, high), (cold, hot) = self.pressure_GPa, self.temperature_C
         words = {name: WORDS[name] for name in self.effects(uncertain=False)}
         if read := " and ".join(text for name, text in words.items() if name not in stated):

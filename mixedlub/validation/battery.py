@@ -27,7 +27,7 @@ from profiles.errors import InputError
 RIGS_SURVEYED = 60
 """Rigs drawn per kind to list the effects that can be planted on it."""
 MARK = "battery.json"
-"""File beside the cases of a battery that says how they were dealt."""
+"""File of the seed, kinds, size and planner of a battery, beside its cases."""
 Card = TypeVar("Card")
 
 

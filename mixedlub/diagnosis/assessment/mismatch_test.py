@@ -10,7 +10,7 @@ import numpy as np
 from mixedlub.diagnosis.discrepancy.modulated import READING
 from mixedlub.diagnosis.discrepancy.smooth import DiscrepancyForm
 from mixedlub.diagnosis.inference.likelihood import outlier_chance
-from mixedlub.diagnosis.inference.map_fit import whitening
+from mixedlub.diagnosis.inference.map_fit import log_volume, whitening
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.noise_selection import NoiseSearch
 from mixedlub.diagnosis.search.search import Search
@@ -75,7 +75,6 @@ class _Alternatives:
         """The alternatives of a search, given the columns of calibration and set-ups, and the weights."""
         fixed = fixed / scale
         whitened = whitening(fixed, weight)
-        inner = np.eye(fixed.shape[1]) + fixed.T @ (fixed * weight[:, None])
         directions = [s.change[: s.n_prior] for s in search.draws]
         effects = np.vstack(directions) / scale if directions else np.zeros((0, weight.size))
         whitened_effects = whitened(effects)
@@ -86,7 +85,7 @@ class _Alternatives:
             whitened_block = whitened(block.T)
             size, vectors = np.linalg.eigh(whitened_block @ block)
             smooth.append((np.maximum(size, 0.0), vectors.T @ whitened_block))
-        spread = float(np.linalg.slogdet(inner)[1]) + 2.0 * weight.size * float(np.log(scale))
+        spread = log_volume(fixed, weight) + 2.0 * weight.size * float(np.log(scale))
         return cls(
             scale, whitened, spread, whitened_effects, np.einsum("ij,ij->i", effects, whitened_effects), tuple(smooth)
         )

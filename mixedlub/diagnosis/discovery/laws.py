@@ -22,7 +22,6 @@ from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.likelihood import outlier_chance
 from mixedlub.diagnosis.inference.map_fit import Fit, map_fit
 from mixedlub.diagnosis.problem import Problem
-from mixedlub.diagnosis.search.prior_odds import log_odds_of_laws
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.assessment import CHANCE_GAIN, COLLINEAR, OUTSIDE_OF_END
 from mixedlub.diagnosis.settings.discovery import (
@@ -157,8 +156,7 @@ def find_law(search: Search, levels: LevelsOut) -> FoundLaw | None:
         v.text: (float(v.values.min()), float(v.values.max())) for v in present if best.candidate.is_bounded_by(v.text)
     }
     # The evidence of the discrepancy has the odds of its base, and no choice of a quantity.
-    base, odds = search.discrepancy.base.explanation, search.prior_odds
-    prior = log_odds_of_laws(len(set(odds.laws) & set(base.effects))) + odds.log_expected(base)
+    prior = search.prior_odds.log_given(search.discrepancy.base.explanation)
     prior -= np.log(len({(c.target.quantity, c.target.form) for c in (*every_candidate, *every_replacement)}))
     return FoundLaw(
         best.effect,

@@ -16,10 +16,10 @@ from mixedlub.diagnosis.discovery.screening import (
     REPLACE,
     Candidate,
     Target,
-    Whitened,
     constant_term,
 )
 from mixedlub.diagnosis.discovery.terms import Variable, single_terms
+from mixedlub.diagnosis.inference.map_fit import log_volume, whitening
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.search import Search, spread_rows
 from mixedlub.diagnosis.settings.assessment import VARIED_FROM
@@ -35,7 +35,7 @@ def replacements(search: Search, every: Sequence[Variable]) -> list[Candidate]:
     rows = spread_rows(search.values, problem.y.size, SCREENED_ROWS)
     run = problem.run(base.explanation, base.z)
     fixed, weight = np.hstack([base.slopes, problem.shared])[rows], search.discrepancy.fit.weight[rows]
-    before = Whitened(fixed, weight, base.anchor[rows]).misfit
+    _, before = _whitened(base.anchor[rows], fixed, weight)
     powers = [t for v in every if v.text not in PASSING for t in single_terms(v) if t.shape == "power"]
     found: list[Candidate] = []
     for name in QUANTITIES:
@@ -49,16 +49,21 @@ def replacements(search: Search, every: Sequence[Variable]) -> list[Candidate]:
             terms = (constant_term(problem.y.size), *few)
             sds = np.array([LOG_FACTOR_SD, *(EXPONENT_SD for _ in few)])
             columns = np.column_stack([t.values[rows] * slope for t in terms]) * sds
-            own = Whitened(np.hstack([fixed, columns]), weight, base.anchor[rows] - change[rows])
-            amplitudes = sds * (columns.T @ own.white_target)
+            white, evidence = _whitened(base.anchor[rows] - change[rows], np.hstack([fixed, columns]), weight)
+            amplitudes = sds * (columns.T @ white)
             choices = len(few) * np.log(max(len(others), 1))
-            score = 0.5 * (before - own.misfit - own.log_volume_over(fixed)) - choices
-            found.append(Candidate(target, terms, tuple(map(float, amplitudes)), float(score)))
+            found.append(Candidate(target, terms, tuple(map(float, amplitudes)), float(evidence - before - choices)))
     return sorted(found, key=lambda c: -c.score)
 
 
+def _whitened(target: np.ndarray, columns: np.ndarray, weight: np.ndarray) -> tuple[np.ndarray, float]:
+    """A target times the inverse covariance of noise plus columns, and its log evidence up to a constant."""
+    white = whitening(columns, weight)(target[None])[0]
+    return white, -0.5 * (float(target @ white) + log_volume(columns, weight))
+
+
 def _held(problem: Problem, run: Run, name: str) -> tuple[Target, np.ndarray] | None:
-    """A quantity held constant, and changes of readings in sd; None if it is not there, or hardly varies or matters."""
+    """A quantity held constant, and changes of readings in sd; None without effect or variation."""
     forward = problem.forward
     if name not in forward.inputs and name not in {step for step, _ in forward.chain}:
         return None

@@ -134,7 +134,7 @@ def screened(search: Search, every: Sequence[Variable], past: Sequence[Term] = (
     added = [*(term for terms in few.values() for term in terms), *filter(is_bounded, past)]
     flat = constant_term(problem.y.size)
     found: list[Candidate] = []
-    whitened = Whitened(fixed, weight, target)
+    whitened = _Whitened(fixed, weight, target)
     for t in targets(search):
         groups = [(added if t.form == ADD else singles, 0.0), (products, np.log(PRODUCT_PRIOR))]
         groups = [([flat], 0.0), *groups] if t.form == ADD else groups
@@ -166,7 +166,7 @@ def _sums(
     """Sums of two terms of a target: the first is the power of each variable, or one of the best terms."""
     own = t.column[rows]
     columns = np.array([term.values[rows] for term in terms]) * own
-    alone = Whitened(fixed, weight, target)
+    alone = _Whitened(fixed, weight, target)
     evidence, amplitude = alone.evidence(columns)
     firsts: dict[tuple[str, ...], int] = {}
     for i in np.argsort(-evidence, kind="stable"):
@@ -177,7 +177,7 @@ def _sums(
     for i in firsts.values():
         first = columns[i][:, None]
         scale = READING_SIZES[-1] / max(float(np.sqrt(np.mean(first**2))), 1e-300)
-        more, second = Whitened(np.hstack([fixed, scale * first]), weight, target).evidence(columns)
+        more, second = _Whitened(np.hstack([fixed, scale * first]), weight, target).evidence(columns)
         score = evidence[i] + more - 2.0 * np.log(len(terms)) + np.log(SUM_PRIOR)
         kinds: set[str] = set()
         for k in np.argsort(-score, kind="stable"):
@@ -191,29 +191,11 @@ def _sums(
     return found
 
 
-class Whitened:
+class _Whitened:
     """Evidence of single columns beside fixed columns with standard-normal priors."""
 
     def __init__(self, fixed: np.ndarray, weight: np.ndarray, target: np.ndarray) -> None:
-        self.whiten, self.target, self.fixed, self.weight = whitening(fixed, weight), target, fixed, weight
-
-    @property
-    def white_target(self) -> np.ndarray:
-        """The target times the inverse covariance."""
-        return np.asarray(self.whiten(self.target[None])[0])
-
-    @property
-    def misfit(self) -> float:
-        """Squared distance of the target from zero."""
-        return float(self.target @ self.white_target)
-
-    def log_volume_over(self, fewer: np.ndarray) -> float:
-        """Log determinant of the covariance of the readings, over that with ``fewer`` columns."""
-        with_all, with_few = (
-            float(np.linalg.slogdet(np.eye(c.shape[1]) + (c * self.weight[:, None]).T @ c)[1])
-            for c in (self.fixed, fewer)
-        )
-        return with_all - with_few
+        self.whiten, self.target = whitening(fixed, weight), target
 
     def evidence(self, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Log evidence of each column over none, averaged over sizes, and its amplitude."""

@@ -119,7 +119,20 @@ def covariance(columns: np.ndarray, weight: np.ndarray) -> np.ndarray:
     >>> covariance(np.ones((3, 1)), np.ones(3)).tolist()
     [[0.25]]
     """
-    return np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ (columns * weight[:, None]))
+    return np.linalg.inv(_precision(columns, weight))
+
+
+def log_volume(columns: np.ndarray, weight: np.ndarray) -> float:
+    """Log determinant of noise plus columns with standard-normal priors, over the noise alone.
+
+    >>> round(log_volume(np.ones((3, 1)), np.ones(3)), 3)   # log 4
+    1.386
+    """
+    return float(np.linalg.slogdet(_precision(columns, weight))[1])
+
+
+def _precision(columns: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    return np.asarray(np.eye(columns.shape[1]) + columns.T @ (columns * weight[:, None]))
 
 
 def square_root(spread: np.ndarray) -> np.ndarray:
@@ -222,9 +235,7 @@ def _laplace_fit(
     state = _gauss_newton(
         problem, explanation, state, log_likelihood, tolerance=tolerance, rival=rival, hopeless=hopeless
     )
-    columns = np.hstack([state.slopes, problem.shared])
-    curvature = np.eye(columns.shape[1]) + columns.T @ (columns * state.weight[:, None])
-    evidence = -state.cost - 0.5 * float(np.linalg.slogdet(curvature)[1])
+    evidence = -state.cost - 0.5 * log_volume(np.hstack([state.slopes, problem.shared]), state.weight)
     prediction = state.run.prediction
     common = problem.shared @ state.shared
     residual = (problem.y - prediction) / problem.sd - common
@@ -308,7 +319,7 @@ def _gauss_newton(
     """Damped Gauss-Newton steps until the gain is below the tolerance, or the fit is hopelessly behind its rival.
 
     Every second Jacobian is only corrected along the step, and the others reuse the columns of small corrections to
-    base laws; only the last step has a full Jacobian, which the result keeps. A fit that is given up keeps what it has.
+    base laws; only the last step has a full Jacobian, which the result keeps. A fit given up keeps its last slopes.
     """
     z, shared, run, slopes = state.z, state.shared, state.run, state.slopes
     cost, weight = _cost(problem, run.prediction, z, shared, likelihood)

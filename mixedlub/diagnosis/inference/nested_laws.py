@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from mixedlub.diagnosis.inference.change_points import change_point_coordinates, integrate_change_points
+from mixedlub.diagnosis.inference.change_points import integrate_change_points
 from mixedlub.diagnosis.inference.likelihood import log_likelihood
-from mixedlub.diagnosis.inference.map_fit import Fit, linear_fit, map_fit
+from mixedlub.diagnosis.inference.map_fit import Fit, linear_fit, log_volume, map_fit
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.settings.inference import (
     FIT_TOLERANCE,
@@ -44,9 +44,7 @@ def published_gain(problem: Problem, free: Fit) -> float:
 
 
 def linearised_gain(problem: Problem, free: Fit) -> float:
-    """Estimate of `published_gain` with the slopes of the free fit; explanations with change points are fitted."""
-    if change_point_coordinates(problem, free.explanation):
-        return published_gain(problem, free)
+    """Estimate of `published_gain` with the slopes of a free fit without change points."""
     found = ((effect, _linearised(nested, free, kept)[1]) for effect, _, nested, kept in _nested(problem, free))
     return _gain((effect, evidence - free.evidence) for effect, evidence in found)
 
@@ -76,7 +74,7 @@ def _nested(problem: Problem, free: Fit) -> Iterator[tuple[str, str, Problem, np
 def _linearised(nested: Problem, free: Fit, kept: np.ndarray) -> tuple[np.ndarray, float]:
     """Coordinates of the rest and log evidence there, the best of the free fit's and of rounds with its slopes.
 
-    The slopes only find the coordinates; the misfit is that of the nonlinear laws.
+    The slopes only find the coordinates; the misfit is by the nonlinear laws.
     """
     z, slopes = free.z[kept], free.slopes[:, kept]
     columns = np.hstack([slopes, nested.shared])
@@ -86,10 +84,9 @@ def _linearised(nested: Problem, free: Fit, kept: np.ndarray) -> tuple[np.ndarra
         if not np.isfinite(residual).all():
             break
         shared = linear_fit(residual, nested.shared, free.weight)
-        curvature = np.eye(columns.shape[1]) + columns.T @ (columns * shared.weight[:, None])
-        squares = z @ z + shared.coefficients @ shared.coefficients
-        volume = float(np.linalg.slogdet(curvature)[1])
-        found.append((z, float(log_likelihood(shared.residual)[0].sum()) - 0.5 * (float(squares) + volume)))
+        squares = float(z @ z + shared.coefficients @ shared.coefficients)
+        volume = log_volume(columns, shared.weight)
+        found.append((z, float(log_likelihood(shared.residual)[0].sum()) - 0.5 * (squares + volume)))
         linear = linear_fit(residual + slopes @ z, columns, shared.weight)
         z = np.clip(linear.coefficients[: z.size], -MOST_COORDINATE, MOST_COORDINATE)
     return max(found, key=lambda one: one[1])

@@ -11,7 +11,7 @@ import numpy as np
 from mixedlub.diagnosis.discrepancy.model import evidence_by_size
 from mixedlub.diagnosis.discrepancy.modulated import share_of
 from mixedlub.diagnosis.explanation import NOTHING, Explanation
-from mixedlub.diagnosis.inference.map_fit import Fit, linear_fit, whitening
+from mixedlub.diagnosis.inference.map_fit import Fit, linear_fit, log_volume, whitening
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.settings.law_error import (
     BASE_ERROR_LENGTH,
@@ -71,8 +71,7 @@ def _quick_evidence(
 ) -> np.ndarray:
     """Gaussian log evidence at fixed weights with columns added at each size, up to a constant."""
     whitened = whitening(fixed, weight)
-    inner = np.eye(fixed.shape[1]) + fixed.T @ (fixed * weight[:, None])
-    alone = float(target @ whitened(target[None])[0]) + float(np.linalg.slogdet(inner)[1])
+    alone = float(target @ whitened(target[None])[0]) + log_volume(fixed, weight)
     return evidence_by_size(target, whitened, added, sizes) - 0.5 * alone
 
 

@@ -83,6 +83,11 @@ class PriorOdds:
         has = sum(name in explanation.effects for name in self.expected)
         return float(has * np.log(EXPECTED_CHANCE) + (len(self.expected) - has) * np.log1p(-EXPECTED_CHANCE))
 
+    def log_given(self, explanation: Explanation) -> float:
+        """Log prior odds of the other laws and the expected effects of an explanation, the base of a discrepancy."""
+        laws = sum(name in self.laws for name in explanation.effects)
+        return log_odds_of_laws(laws) + self.log_expected(explanation)
+
     @cached_property
     def _sizes(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """Prior weight of each number of effects, and the sum of the products of odds that share it."""
@@ -99,9 +104,8 @@ class PriorOdds:
             return float(np.log(PRIOR["discrepancy"]))
         effects = self.effects_among(explanation)
         weight, total = (sizes[len(effects)] for sizes in self._sizes)
-        laws = sum(name in self.laws for name in explanation.effects)
-        odds = sum(np.log(self._odds[n]) for n in effects) + log_odds_of_laws(laws)
-        return float(np.log(weight / total) + odds) + self.log_expected(explanation)
+        odds = sum(np.log(self._odds[n]) for n in effects)
+        return float(np.log(weight / total) + odds) + self.log_given(explanation)
 
     def effects_among(self, explanation: Explanation) -> list[str]:
         """Effects of an explanation, without other laws of the base model."""

@@ -11,7 +11,7 @@ import numpy as np
 from mixedlub.diagnosis.discrepancy.model import Discrepancy
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.additions import promising_additions
-from mixedlub.diagnosis.inference.change_points import integrate_change_points
+from mixedlub.diagnosis.inference.change_points import change_point_coordinates, integrate_change_points
 from mixedlub.diagnosis.inference.initial_guesses import PriorDraws, fit_singles, sample
 from mixedlub.diagnosis.inference.likelihood import log_likelihood
 from mixedlub.diagnosis.inference.map_fit import Fit, Linear, map_fit
@@ -246,17 +246,17 @@ def _scores(
     weights = {m: score + odds.log(m) for m, score in scores.items()}
     best = max(weights.values())
     near = [m for m, weight in weights.items() if weight > best - PUBLISHED_WITHIN]
-    gains = dict(zip(near, shared_out(lambda m: linearised_gain(problem, fits[m]), near), strict=True))
-    fitted: set[Explanation] = set()
+    linear = [m for m in near if not change_point_coordinates(problem, m)]
+    gains = dict(zip(linear, shared_out(lambda m: linearised_gain(problem, fits[m]), linear), strict=True))
+    leaders = [m for m in near if m not in gains]
     while True:
+        gains |= zip(leaders, shared_out(lambda m: published_gain(problem, fits[m]), leaders), strict=True)
+        linear = [m for m in linear if m not in leaders]
         # Fitted gains may lower the best, so that others come near it.
         best = max((weights[m] + gain for m, gain in gains.items()), default=0.0)
-        nearer = [m for m in gains if m not in fitted and weights[m] + gains[m] > best - LAWS_REFITTED_WITHIN]
-        if not nearer:
-            break
-        gains |= zip(nearer, shared_out(lambda m: published_gain(problem, fits[m]), nearer), strict=True)
-        fitted.update(nearer)
-    return {m: score + gains.get(m, 0.0) for m, score in scores.items()}
+        leaders = [m for m in linear if weights[m] + gains[m] > best - LAWS_REFITTED_WITHIN]
+        if not leaders:
+            return {m: score + gains.get(m, 0.0) for m, score in scores.items()}
 
 
 def _fit_pairs(

@@ -13,7 +13,7 @@ from mixedlub.diagnosis.inference.additions import promising_additions
 from mixedlub.diagnosis.inference.initial_guesses import PriorDraws
 from mixedlub.diagnosis.inference.map_fit import Fit, fit_best_first, map_fit
 from mixedlub.diagnosis.problem import Problem, effects_of
-from mixedlub.diagnosis.search.prior_odds import PriorOdds, log_odds_of_laws
+from mixedlub.diagnosis.search.prior_odds import PriorOdds
 from mixedlub.diagnosis.settings.inference import STRONG_EVIDENCE
 from mixedlub.diagnosis.settings.search import ADDED_TO, MOST_ADDED, MOST_EFFECTS, ROUNDS
 from mixedlub.recording.conditions import Coordinates
@@ -92,15 +92,11 @@ def discrepancy_beside_laws(
     laws = set(prior.laws)
     laws = laws if any(e.stage == "law" for e in effects_of(laws)) else set()
     given = laws | set(prior.expected)
-
-    def odds_of(base: Explanation) -> float:
-        return log_odds_of_laws(len(laws.intersection(base.effects))) + prior.log_expected(base)
-
-    weights = {m: f.evidence + odds_of(m) for m, f in fits.items() if given.issuperset(m.effects)}
+    weights = {m: f.evidence + prior.log_given(m) for m, f in fits.items() if given.issuperset(m.effects)}
     bases = dict.fromkeys([NOTHING, max(weights, key=weights.__getitem__)])
     found = []
     for base in bases:
         one = fit_discrepancy(problem, fits[base], space, values, names)
-        found.append(replace(one, evidence=one.evidence + odds_of(base)))
+        found.append(replace(one, evidence=one.evidence + prior.log_given(base)))
     together = float(np.logaddexp.reduce([one.evidence for one in found]))
     return replace(max(found, key=lambda one: one.evidence), evidence=together)
