@@ -61,7 +61,8 @@ class Model:
     ) -> Record:
         """Run the model and keep every quantity; unaffected steps are taken from a previous run ``near``.
 
-        The numbers equal a full run to the last bit.
+        The numbers equal a full run to the last bit, but of a law with a method ``near`` of its own: it takes the
+        arguments, and those and the result of the previous run.
         """
         values = self._values(parameters)
         given = [inputs[name] for name in self.given]
@@ -74,7 +75,12 @@ class Model:
             changed_effects = [name for name, own in values.items() if own != near.values[name]]
             calls = self._reached_by(frozenset([*changed, *changed_effects]))
         for call in calls:
-            result = _result(call, [made[i] for i in call.reads], values)
+            arguments = [made[i] for i in call.reads]
+            close = None if near is None or call.effect else getattr(call.law, "near", None)
+            if close is not None and near is not None:
+                result = close(arguments, [near.made[i] for i in call.reads], near.made[call.writes[0]])
+            else:
+                result = _result(call, arguments, values)
             if len(call.writes) == 1:
                 made[call.writes[0]] = result
             else:

@@ -63,12 +63,13 @@ def solve_levels(oil: Oil, contacts: Contacts, *, thermal: bool, nodes: tuple[in
             usable = ~np.isnan(levels[-1].state.approach)
             guess.put(usable, _refined(levels[-1].take(usable), mesh.take(usable)))
         state, converged = converge(oil, here, mesh, guess, thermal=thermal, far=~found)
-        if levels and not np.all(converged):
+        for attempt, away in ((again, ~found), (converge, np.ones_like(found))) if levels else ():
             left = np.flatnonzero(~converged)
-            parts = here.take(left), mesh.take(left), guess.take(left)
-            other, solved = again(oil, *parts, thermal=thermal, far=~found[left])
-            state.put(left, other)
-            converged[left] = solved
+            if len(left):
+                parts = here.take(left), mesh.take(left), guess.take(left)
+                other, solved = attempt(oil, *parts, thermal=thermal, far=away[left])
+                state.put(left, other)
+                converged[left] = solved
         kept = converged if levels else np.ones_like(converged)
         stopped_at[index[~kept]] = count
         index, found = index[kept], converged[kept]

@@ -10,6 +10,7 @@ import numpy as np
 
 from mixedlub.chain.model import Chain, Law
 from mixedlub.full_base.emulator import FILM_GOAL, FRICTION_GOAL, INPUTS, Emulator
+from mixedlub.full_base.gaussian_process import Process
 from mixedlub.full_base.solutions import Bodies, Matter
 from mixedlub.full_base.words import CONTAINED, FULL, WORDS
 from mixedlub.laws import film, shear
@@ -19,6 +20,8 @@ from mixedlub.schema import system_file
 from mixedlub.schema.findings import collected, finding, report
 from profiles.errors import InputError
 
+CLOSE = 1e-4
+"""Judgement. Move of a feature, of its range from -1 to 1, up to which a ratio follows its slopes: they leave 1e-8."""
 REACH = 60.0
 """Judgement. Distance (K) from the two viscosities of an oil up to which full solutions are computed, as of
 `viscosity_extrapolated` the range in which numbers count."""
@@ -33,6 +36,7 @@ class Ratio:
         arguments = (*INPUTS, f"{quantity}_ratio_factor")
         self.__signature__ = inspect.Signature([inspect.Parameter(n, kind) for n in arguments])
         self.__doc__ = WORDS
+        self._expanded: dict[str, Any] = {"result": None}
 
     @property
     def valid(self) -> Mapping[str, tuple[float, float]]:
@@ -41,8 +45,27 @@ class Ratio:
 
     def __call__(self, *values: Any) -> np.ndarray:
         *state, factor = values
-        process = getattr(self.emulator, self.quantity)
-        return np.asarray(factor * self.emulator.ratios(process, dict(zip(INPUTS, state, strict=True))))
+        return np.asarray(factor * self.emulator.ratios(self._process, dict(zip(INPUTS, state, strict=True))))
+
+    def near(self, values: Sequence[Any], others: Sequence[Any], result: np.ndarray) -> np.ndarray:
+        """Ratio at values close to others with a known result, by the slopes there; else as for any values."""
+        here = self._expanded
+        if here["result"] is not result:
+            here = self._expanded = {"result": result, "places": self._places(others)}
+        moved = self._places(values) - here["places"]
+        if np.max(np.abs(moved)) > CLOSE:
+            return self(*values)
+        if "slopes" not in here:
+            here["slopes"] = self.emulator.slopes(self._process, here["places"])
+        return np.asarray(values[-1] / others[-1] * result * np.exp(np.sum(moved * here["slopes"], axis=-1)))
+
+    def _places(self, values: Sequence[Any]) -> np.ndarray:
+        return self.emulator.places(dict(zip(INPUTS, values[:-1], strict=True)))
+
+    @property
+    def _process(self) -> Process:
+        process: Process = getattr(self.emulator, self.quantity)
+        return process
 
 
 def solved_film(

@@ -102,13 +102,15 @@ class Emulator:
 
         Rows of equal contacts, as of several pairs of surfaces, are evaluated once.
         """
-        found = features(**self._inside(state))
-        shape = found.shape[:-1]
-        if len(shape) == 2 and shape[0] > 1:
-            rows = np.ascontiguousarray(found.reshape(shape[0], -1))
-            _, first, back = np.unique(rows.view(f"V{rows.dtype.itemsize * rows.shape[1]}"), True, True)
-            return self._at(process, found[first])[back.ravel()]
-        return self._at(process, found)
+        return np.exp(_once(process, self.places(state)))
+
+    def slopes(self, process: Process, places: np.ndarray) -> np.ndarray:
+        """Derivatives of the logarithm of the ratio by the places of contacts."""
+        return _once(process.slopes, places)
+
+    def places(self, state: Mapping[str, Any]) -> np.ndarray:
+        """Features of contacts, on a last axis, from -1 to 1 over those of the solutions."""
+        return np.asarray(2.0 * (features(**self._inside(state)) - self.low) / (self.high - self.low) - 1.0)
 
     def _inside(self, state: Mapping[str, Any]) -> dict[str, Any]:
         """Contacts moved into the range, with the load of their pressure."""
@@ -130,11 +132,6 @@ class Emulator:
             "sliding_speed": np.clip(ratio, *self.box["slide_roll_ratio"]) * speed,
         }
 
-    def _at(self, process: Process, found: np.ndarray) -> np.ndarray:
-        flat = found.reshape(-1, found.shape[-1])
-        scaled = 2.0 * (flat - self.low) / (self.high - self.low) - 1.0
-        return np.exp(process(scaled)).reshape(found.shape[:-1])
-
     @property
     def valid(self) -> dict[str, tuple[float, float]]:
         """Range of the contacts; sliding has no lower end."""
@@ -154,6 +151,17 @@ class Emulator:
             arrays |= {f"{name}_{one.name}": getattr(process, one.name) for one in fields(Process)}
         with whole(path) as aside, aside.open("wb") as file:
             np.savez(file, **arrays)
+
+
+def _once(function: Callable[[np.ndarray], np.ndarray], places: np.ndarray) -> np.ndarray:
+    """Values of a function of places on the last axis; equal rows of contacts are evaluated once."""
+    back: Any = slice(None)
+    if places.ndim == 3 and len(places) > 1:
+        rows = np.ascontiguousarray(places.reshape(len(places), -1))
+        _, first, back = np.unique(rows.view(f"V{rows.dtype.itemsize * rows.shape[1]}"), True, True)
+        places, back = places[first], back.ravel()
+    found = function(places.reshape(-1, places.shape[-1]))
+    return np.asarray(found.reshape(*places.shape[:-1], *found.shape[1:])[back])
 
 
 def read(path: Path) -> Emulator:

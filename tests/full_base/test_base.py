@@ -64,6 +64,17 @@ def test_smooth_discs_have_the_friction_of_the_emulator(cache: Path) -> None:
     assert "full thermal, non-Newtonian solutions" in case.base_model
 
 
+@pytest.mark.parametrize("factor", [1.0 + 1e-5, 1.1])
+def test_a_run_near_another_follows_the_slopes_of_the_emulator(cache: Path, factor: float) -> None:
+    case = discs()
+    forward = Forward(case, case.recordings)
+    moved = {"viscosity": factor, "pressure_viscosity": 1.0 / factor, "full_solution.film": factor}
+    base, exact = forward.run(), forward.predict(moved)
+    near = forward.run(moved, near=base).prediction
+    assert near == pytest.approx(exact, rel=1e-9)
+    assert (near == exact).all() == (factor > 1.01)
+
+
 def test_calibration_moves_the_oil_of_the_film_and_the_errors_of_the_emulator(cache: Path) -> None:
     case = discs()
     forward = Forward(case, case.recordings)

@@ -23,6 +23,14 @@ def test_a_quadratic_is_exact() -> None:
     assert found(POINTS[:5] * 0.5) == pytest.approx(quadratic(POINTS[:5] * 0.5) @ np.arange(1.0, 11.0))
 
 
+def test_slopes_of_the_values_are_their_differences() -> None:
+    found, places, step = fit(POINTS, VALUES), 0.8 * POINTS[:9], 1e-4
+    for axis, slopes in enumerate(found.slopes(places).T):
+        moved = step * np.eye(3)[axis]
+        assert slopes == pytest.approx((found(places + moved) - found(places - moved)) / (2.0 * step), abs=1e-5)
+    assert (found.slopes(np.full((1, 3), 40.0)) == 0.0).all()
+
+
 def test_features_that_depend_on_each_other_have_a_bounded_trend() -> None:
     """Values follow from the first two features alone; the third is their sum."""
     twins = np.column_stack([POINTS[:, :2], 0.5 * (POINTS[:, 0] + POINTS[:, 1])])
