@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import inspect
+from collections import deque
 from collections.abc import Callable, Collection, Mapping, Sequence
+from operator import is_
 from typing import Any
 
 import numpy as np
@@ -27,11 +29,28 @@ REACH = 60.0
 `viscosity_extrapolated` the range in which numbers count."""
 
 
+class Places:
+    """Places of contacts in the emulator, kept for the last two states: both ratios ask for the same."""
+
+    def __init__(self, emulator: Emulator) -> None:
+        self.emulator = emulator
+        self._kept: deque[tuple[Sequence[Any], np.ndarray]] = deque(maxlen=2)
+
+    def __call__(self, state: Sequence[Any]) -> np.ndarray:
+        """Places at values of `INPUTS`."""
+        for known, found in self._kept:
+            if all(map(is_, known, state)):
+                return found
+        found = self.emulator.places(dict(zip(INPUTS, state, strict=True)))
+        self._kept.append((state, found))
+        return found
+
+
 class Ratio:
     """A ratio of full solutions and formulas, as a law of the chain with the range of its emulator."""
 
-    def __init__(self, emulator: Emulator, quantity: str, name: str) -> None:
-        self.emulator, self.quantity, self.__name__ = emulator, quantity, name
+    def __init__(self, places: Places, quantity: str, name: str) -> None:
+        self.emulator, self.places, self.quantity, self.__name__ = places.emulator, places, quantity, name
         kind = inspect.Parameter.POSITIONAL_OR_KEYWORD
         arguments = (*INPUTS, f"{quantity}_ratio_factor")
         self.__signature__ = inspect.Signature([inspect.Parameter(n, kind) for n in arguments])
@@ -44,23 +63,19 @@ class Ratio:
         return self.emulator.valid
 
     def __call__(self, *values: Any) -> np.ndarray:
-        *state, factor = values
-        return np.asarray(factor * self.emulator.ratios(self._process, dict(zip(INPUTS, state, strict=True))))
+        return np.asarray(values[-1] * self.emulator.ratios(self._process, self.places(values[:-1])))
 
     def near(self, values: Sequence[Any], others: Sequence[Any], result: np.ndarray) -> np.ndarray:
         """Ratio at values close to others with a known result, by the slopes there; else as for any values."""
         here = self._expanded
         if here["result"] is not result:
-            here = self._expanded = {"result": result, "places": self._places(others)}
-        moved = self._places(values) - here["places"]
+            here = self._expanded = {"result": result, "places": self.places(others[:-1])}
+        moved = self.places(values[:-1]) - here["places"]
         if np.max(np.abs(moved)) > CLOSE:
             return self(*values)
         if "slopes" not in here:
             here["slopes"] = self.emulator.slopes(self._process, here["places"])
         return np.asarray(values[-1] / others[-1] * result * np.exp(np.sum(moved * here["slopes"], axis=-1)))
-
-    def _places(self, values: Sequence[Any]) -> np.ndarray:
-        return self.emulator.places(dict(zip(INPUTS, values[:-1], strict=True)))
 
     @property
     def _process(self) -> Process:
@@ -106,7 +121,8 @@ def with_full_base(chain: Chain, emulator: Emulator) -> Chain:
     Ratios multiply film law and shear law, so that effects on film, viscosity under pressure or Eyring stress act as on
     the formulas. The first film of a chain is replaced: a balance of the load thins it afterwards.
     """
-    ratios = {name: Ratio(emulator, name, FULL) for name in ("film", "stress")}
+    places = Places(emulator)
+    ratios = {name: Ratio(places, name, FULL) for name in ("film", "stress")}
     found: list[tuple[str, Law]] = []
     for name, law in chain:
         if name == "film_thickness" and "film_ratio" not in dict(found):

@@ -97,19 +97,22 @@ class Emulator:
     stress: Process
     errors: Errors
 
-    def ratios(self, process: Process, state: Mapping[str, Any]) -> np.ndarray:
-        """Ratio of solution and law at contacts; contacts beyond the range are moved to its ends.
+    def ratios(self, process: Process, places: np.ndarray) -> np.ndarray:
+        """Ratio of solution and law at the places of contacts.
 
         Rows of equal contacts, as of several pairs of surfaces, are evaluated once.
         """
-        return np.exp(_once(process, self.places(state)))
+        return np.exp(_once(process, places))
 
     def slopes(self, process: Process, places: np.ndarray) -> np.ndarray:
         """Derivatives of the logarithm of the ratio by the places of contacts."""
         return _once(process.slopes, places)
 
     def places(self, state: Mapping[str, Any]) -> np.ndarray:
-        """Features of contacts, on a last axis, from -1 to 1 over those of the solutions."""
+        """Features of contacts, on a last axis, from -1 to 1 over those of the solutions.
+
+        Contacts beyond the range are moved to its ends.
+        """
         return np.asarray(2.0 * (features(**self._inside(state)) - self.low) / (self.high - self.low) - 1.0)
 
     def _inside(self, state: Mapping[str, Any]) -> dict[str, Any]:

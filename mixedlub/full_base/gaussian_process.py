@@ -64,12 +64,13 @@ class Process:
         found = linear + points @ (curved + curved.T)
         pulls = np.column_stack([self.weights, self.weights[:, None] * self.points])
         for start in range(0, len(points), AT_ONCE):
-            part = points[start : start + AT_ONCE]
+            part, own = points[start : start + AT_ONCE], found[start : start + AT_ONCE]
             near = nearness(part, self.points, self.scales)
-            pulled = (covariance(part, self.points, self.scales) * near) @ pulls
-            found[start : start + AT_ONCE] += (pulled[:, 1:] - part * pulled[:, :1]) / self.scales**2
-        values = self(points)
-        found[(values <= self.bounds[0]) | (values >= self.bounds[1])] = 0.0
+            held = powered(near)
+            values = quadratic(part) @ self.trend + held @ self.weights
+            pulled = np.multiply(held, near, out=near) @ pulls
+            own += (pulled[:, 1:] - part * pulled[:, :1]) / self.scales**2
+            own[(values <= self.bounds[0]) | (values >= self.bounds[1])] = 0.0
         return np.asarray(found)
 
 
@@ -100,9 +101,14 @@ def covariance(points: np.ndarray, others: np.ndarray, scales: np.ndarray) -> np
     >>> round(float(covariance(near, far, np.ones(1))[0, 0] * (1.0 + 4.0 / 32.0) ** 16), 12)
     1.0
     """
-    found = nearness(points, others, scales)
+    return powered(nearness(points, others, scales))
+
+
+def powered(near: np.ndarray) -> np.ndarray:
+    """Covariance of a nearness."""
+    found = near
     for _ in range(SQUARINGS):
-        np.multiply(found, found, out=found)
+        found = np.multiply(found, found, out=None if found is near else found)
     return found
 
 
@@ -150,14 +156,14 @@ def solved(matrix: np.ndarray, terms: np.ndarray, values: np.ndarray) -> tuple[n
 def _loss(log: np.ndarray, points: np.ndarray, terms: np.ndarray, values: np.ndarray) -> tuple[float, np.ndarray]:
     """Negative logarithm of the restricted likelihood at its most probable variance, with the gradient."""
     scales, nugget = np.exp(log[:-1]), float(np.exp(log[-1]))
-    own = covariance(points, points, scales)
-    changing = own * nearness(points, points, scales)
+    near = nearness(points, points, scales)
+    own = powered(near)
     inverse, _, half = solved(own + nugget * np.eye(len(own)), terms, values)
     weights = inverse @ values
     power = max(float(values @ weights), EXACT * float(values @ values))
     free = len(values) - terms.shape[1]
     pull = inverse - free / power * np.outer(weights, weights)
-    by_own = pull * changing
+    by_own = pull * own * near
     slopes = [
         0.5 * np.sum(by_own * (points[:, [axis]] - points[:, axis]) ** 2) / scales[axis] ** 2
         for axis in range(points.shape[1])

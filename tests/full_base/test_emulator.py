@@ -21,8 +21,8 @@ def errors_of(found: Emulator, matter: Matter, rows: Rows, contacts: Varied) -> 
     """Errors of the logarithms of film and friction."""
     state = inputs_of(matter, contacts)
     film, friction = laws(state)
-    thickness = film * found.ratios(found.film, state)
-    mu = friction(thickness) * found.ratios(found.stress, state)
+    thickness = film * found.ratios(found.film, found.places(state))
+    mu = friction(thickness) * found.ratios(found.stress, found.places(state))
     return np.log(thickness / rows["central_film"]), np.log(mu / np.abs(rows["friction_coefficient"]))
 
 
@@ -48,14 +48,18 @@ def test_shipped_solutions_that_were_left_out_are_emulated(matter: Matter, table
 def test_equal_rows_are_evaluated_as_single_ones(emulator: Emulator, matter: Matter, table: pd.DataFrame) -> None:
     state = inputs_of(matter, varied(kept.contacts_of(table.head(6))))
     twice = {name: np.tile(np.broadcast_to(value, 6).reshape(2, 3), (3, 1)) for name, value in state.items()}
-    once = emulator.ratios(emulator.film, {name: np.broadcast_to(value, 6) for name, value in state.items()})
-    assert emulator.ratios(emulator.film, twice) == pytest.approx(np.tile(once.reshape(2, 3), (3, 1)), rel=1e-12)
+    once = emulator.ratios(
+        emulator.film, emulator.places({name: np.broadcast_to(value, 6) for name, value in state.items()})
+    )
+    assert emulator.ratios(emulator.film, emulator.places(twice)) == pytest.approx(
+        np.tile(once.reshape(2, 3), (3, 1)), rel=1e-12
+    )
 
 
 def test_beyond_the_range_the_ratio_is_that_at_its_end(emulator: Emulator, matter: Matter, table: pd.DataFrame) -> None:
     state = inputs_of(matter, varied(kept.contacts_of(table.head(1))))
     still, slow = (
-        emulator.ratios(emulator.stress, {**state, "sliding_speed": state["sliding_speed"] * factor})
+        emulator.ratios(emulator.stress, emulator.places({**state, "sliding_speed": state["sliding_speed"] * factor}))
         for factor in (0.0, 1e-12)
     )
     assert np.isfinite(still).all()
@@ -95,7 +99,7 @@ def test_isothermal_films_are_those_of_the_formula(matter: Matter, table: pd.Dat
     """Dowson and Toyoda state 9 to 29 % above compressible solutions at gear conditions."""
     found = trained(matter, BOX, varied(kept.contacts_of(table)), rows_of(table, "isothermal"))
     contacts = gear_like(matter)
-    over = 1.0 / found.ratios(found.film, inputs_of(matter, contacts))
+    over = 1.0 / found.ratios(found.film, found.places(inputs_of(matter, contacts)))
     assert over.min() > 1.09
     assert over.max() < 1.29
 
@@ -126,7 +130,7 @@ def test_newtonian_films_without_heat_are_those_of_the_formula(matter: Matter) -
     contacts = drawn(newton, box, 160)
     found = trained(newton, box, contacts, solved(newton, contacts))
     assert found.errors.film_95 < 1e-3
-    over = 1.0 / found.ratios(found.film, inputs_of(newton, drawn(newton, box, 64, seed=9)))
+    over = 1.0 / found.ratios(found.film, found.places(inputs_of(newton, drawn(newton, box, 64, seed=9))))
     assert over.min() > 1.09
     assert over.max() < 1.29
 
@@ -177,6 +181,9 @@ def test_slopes_of_the_oil_are_differences_of_the_solver(matter: Matter) -> None
         emulated = []
         for state in states:
             film, friction = laws(state)
-            emulated.append(friction(film * found.ratios(found.film, state)) * found.ratios(found.stress, state))
+            emulated.append(
+                friction(film * found.ratios(found.film, found.places(state)))
+                * found.ratios(found.stress, found.places(state))
+            )
         own = np.log(emulated[0] / emulated[1]) / (2.0 * step)
         assert rms(own - solver) < 0.02 * rms(solver), name
