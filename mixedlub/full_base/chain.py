@@ -38,7 +38,7 @@ class Places:
 
     def __call__(self, state: Sequence[Any]) -> np.ndarray:
         """Places at values of `INPUTS`."""
-        for known, found in self._kept:
+        for known, found in tuple(self._kept):
             if all(map(is_, known, state)):
                 return found
         found = self.emulator.places(dict(zip(INPUTS, state, strict=True)))

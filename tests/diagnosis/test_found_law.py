@@ -16,7 +16,7 @@ from mixedlub.case.simulation import simulate
 from mixedlub.diagnosis.assessment.answer_checks import answer_warnings
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.discovery.laws import _is_law
+from mixedlub.diagnosis.discovery.laws import _explains_most, _is_law
 from mixedlub.diagnosis.report.files import write
 from mixedlub.importers import write_case
 from mixedlub.own_laws import read_law
@@ -122,6 +122,13 @@ def test_a_law_that_follows_a_part_of_the_mismatch_is_none(after: float, score: 
     """Left-out levels have the log probability -65 under the discrepancy: odds of 3000 against the law are too many."""
     kept = HeldOut(3.5, after, "leave one level of load_N out", 8, 60, score, -300.0)
     assert _is_law(kept, -65.0) is law
+
+
+@pytest.mark.parametrize(("after", "most"), [(1.02, True), (2.2, True), (3.2, False), (6.6, False), (9.0, False)])
+def test_a_law_must_explain_most_along_each_condition_that_it_reads(after: float, most: bool) -> None:
+    """A peak at one of five baths explains every reading, but leaves this bath at 6.6 of its 8.8 sd from the others."""
+    before = 8.8 if after > 3.5 else 4.4
+    assert _explains_most(HeldOut(before, after, "leave one level out", 5, 60, -60.0, -300.0)) is most
 
 
 def test_a_law_of_a_drive_reads_the_size_of_its_signed_speed(tmp_path: Path) -> None:

@@ -194,15 +194,22 @@ def _is_law(kept: HeldOut, free: float) -> bool:
     A law far behind the discrepancy, under which left-out levels have the log probability ``free``, follows only a part
     of the mismatch.
     """
-    excess = kept.after**2 - 1.0 <= MOST_EXCESS * (kept.before**2 - 1.0)
-    better = kept.after < kept.before and kept.score > kept.score_before + CHANCE_GAIN
-    return excess and better and kept.score > free - FAR_BEHIND
+    better = kept.score > kept.score_before + CHANCE_GAIN
+    return _explains_most(kept) and better and kept.score > free - FAR_BEHIND
+
+
+def _explains_most(kept: HeldOut) -> bool:
+    """Whether a law predicts most of the mismatch of left-out levels."""
+    return kept.after < kept.before and kept.after**2 - 1.0 <= MOST_EXCESS * (kept.before**2 - 1.0)
 
 
 def _holds_along_its_conditions(
     w: Weighed, search: Search, proved: str, problem: Problem, laws: Mapping[str, Effect]
 ) -> bool:
-    """Whether a law also predicts left-out levels of each condition that it reads, where there are enough levels."""
+    """Whether a law also predicts left-out levels of each condition that it reads, where there are enough levels.
+
+    A peak at a single level explains every reading, but not this level from the others.
+    """
     read = {name for term in w.candidate.terms for name in term.variables}
     names = [axis.name for axis in search.space.axes if axis.name in read - {proved} and not axis.named]
     for name in names:
@@ -210,7 +217,7 @@ def _holds_along_its_conditions(
         if levels.name == name:
             proof = _levels_with(levels, problem, laws, {w.fit.explanation: w.fit})
             kept = proof.held(w.fit.explanation, outlier_chance(w.fit.residual) > LIKELY)
-            if kept.after >= kept.before:
+            if not _explains_most(kept):
                 return False
     return True
 
