@@ -61,8 +61,8 @@ class Model:
     ) -> Record:
         """Run the model and keep every quantity; unaffected steps are taken from a previous run ``near``.
 
-        The numbers equal a full run to the last bit, but of a law with a method ``near`` of its own: it takes the
-        arguments, and those and the result of the previous run.
+        The numbers equal a full run to the last bit, except those of a law with a method ``near``: it is called with
+        the arguments, the previous arguments and the previous result, and may approximate.
         """
         values = self._values(parameters)
         given = [inputs[name] for name in self.given]

@@ -63,11 +63,12 @@ def solve_levels(oil: Oil, contacts: Contacts, *, thermal: bool, nodes: tuple[in
             usable = ~np.isnan(levels[-1].state.approach)
             guess.put(usable, _refined(levels[-1].take(usable), mesh.take(usable)))
         state, converged = converge(oil, here, mesh, guess, thermal=thermal, far=~found)
-        for attempt, away in ((again, ~found), (converge, np.ones_like(found))) if levels else ():
-            left = np.flatnonzero(~converged)
+        # Those that were given up at a near start have more time in the last attempt.
+        for attempt, tried in ((again, np.ones_like(found)), (converge, found)) if levels else ():
+            left = np.flatnonzero(~converged & tried)
             if len(left):
                 parts = here.take(left), mesh.take(left), guess.take(left)
-                other, solved = attempt(oil, *parts, thermal=thermal, far=away[left])
+                other, solved = attempt(oil, *parts, thermal=thermal, far=(attempt is converge) | ~found[left])
                 state.put(left, other)
                 converged[left] = solved
         kept = converged if levels else np.ones_like(converged)

@@ -23,14 +23,18 @@ from mixedlub.schema.findings import collected, finding, report
 from profiles.errors import InputError
 
 CLOSE = 1e-4
-"""Judgement. Move of a feature, of its range from -1 to 1, up to which a ratio follows its slopes: they leave 1e-8."""
+"""Judgement. Move of a feature, of its range from -1 to 1, up to which a ratio follows its slopes: the relative error
+is then about 1e-8."""
 REACH = 60.0
 """Judgement. Distance (K) from the two viscosities of an oil up to which full solutions are computed, as of
 `viscosity_extrapolated` the range in which numbers count."""
 
 
 class Places:
-    """Places of contacts in the emulator, kept for the last two states: both ratios ask for the same."""
+    """Places of contacts in the emulator, kept for the last two states: both ratios ask for the same.
+
+    A state is known by its arrays, which must not be written in place.
+    """
 
     def __init__(self, emulator: Emulator) -> None:
         self.emulator = emulator
@@ -44,6 +48,10 @@ class Places:
         found = self.emulator.places(dict(zip(INPUTS, state, strict=True)))
         self._kept.append((state, found))
         return found
+
+    def __reduce__(self) -> tuple[type[Places], tuple[Emulator]]:
+        """Sent to another process without the states."""
+        return Places, (self.emulator,)
 
 
 class Ratio:
@@ -71,11 +79,15 @@ class Ratio:
         if here["result"] is not result:
             here = self._expanded = {"result": result, "places": self.places(others[:-1])}
         moved = self.places(values[:-1]) - here["places"]
-        if np.max(np.abs(moved)) > CLOSE:
+        if not (np.max(np.abs(moved), initial=0.0) <= CLOSE and np.all(others[-1])):
             return self(*values)
         if "slopes" not in here:
             here["slopes"] = self.emulator.slopes(self._process, here["places"])
         return np.asarray(values[-1] / others[-1] * result * np.exp(np.sum(moved * here["slopes"], axis=-1)))
+
+    def __reduce__(self) -> tuple[type[Ratio], tuple[Places, str, str]]:
+        """Sent to another process without the last expansion."""
+        return Ratio, (self.places, self.quantity, self.__name__)
 
     @property
     def _process(self) -> Process:

@@ -158,13 +158,16 @@ class Emulator:
 
 def _once(function: Callable[[np.ndarray], np.ndarray], places: np.ndarray) -> np.ndarray:
     """Values of a function of places on the last axis; equal rows of contacts are evaluated once."""
-    back: Any = slice(None)
     if places.ndim == 3 and len(places) > 1:
         rows = np.ascontiguousarray(places.reshape(len(places), -1))
         _, first, back = np.unique(rows.view(f"V{rows.dtype.itemsize * rows.shape[1]}"), True, True)
-        places, back = places[first], back.ravel()
+        return np.asarray(_each(function, places[first])[back.ravel()])
+    return _each(function, places)
+
+
+def _each(function: Callable[[np.ndarray], np.ndarray], places: np.ndarray) -> np.ndarray:
     found = function(places.reshape(-1, places.shape[-1]))
-    return np.asarray(found.reshape(*places.shape[:-1], *found.shape[1:])[back])
+    return found.reshape((*places.shape[:-1], *found.shape[1:]))
 
 
 def read(path: Path) -> Emulator:

@@ -199,8 +199,9 @@ def _is_law(kept: HeldOut, free: float) -> bool:
 
 
 def _explains_most(kept: HeldOut) -> bool:
-    """Whether a law predicts most of the mismatch of left-out levels."""
-    return kept.after < kept.before and kept.after**2 - 1.0 <= MOST_EXCESS * (kept.before**2 - 1.0)
+    """Whether a law predicts most of the mismatch of left-out levels, as far as their number tells."""
+    excess = max(MOST_EXCESS * (kept.before**2 - 1.0), np.sqrt(2.0 / kept.readings))
+    return bool(kept.after < kept.before and kept.after**2 - 1.0 <= excess)
 
 
 def _holds_along_its_conditions(
@@ -208,7 +209,7 @@ def _holds_along_its_conditions(
 ) -> bool:
     """Whether a law also predicts left-out levels of each condition that it reads, where there are enough levels.
 
-    A peak at a single level explains every reading, but not this level from the others.
+    A peak at a single level explains every reading, but the other levels do not predict it.
     """
     read = {name for term in w.candidate.terms for name in term.variables}
     names = [axis.name for axis in search.space.axes if axis.name in read - {proved} and not axis.named]
