@@ -63,7 +63,7 @@ def solve_levels(oil: Oil, contacts: Contacts, *, thermal: bool, nodes: tuple[in
             usable = ~np.isnan(levels[-1].state.approach)
             guess.put(usable, _refined(levels[-1].take(usable), mesh.take(usable)))
         state, converged = converge(oil, here, mesh, guess, thermal=thermal, far=~found)
-        # Those that were given up at a near start have more time in the last attempt.
+        # Contacts given up at a near start have more time in the last attempt.
         for attempt, tried in ((again, np.ones_like(found)), (converge, found)) if levels else ():
             left = np.flatnonzero(~converged & tried)
             if len(left):
