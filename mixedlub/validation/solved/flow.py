@@ -7,12 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.validation.solved.fluid import Fluid
-from mixedlub.validation.solved.heat import HEIGHTS, LAYERS, SQUARES, Warmth
+from mixedlub.validation.solved.heat import HEIGHTS, LAYERS, PLACES, SQUARES, Warmth
 
 LEAST_STRESS = 1e3
 """Stress of a pressure gradient (Pa) below which flow is linear in the gradient."""
 MOST = 1e12
 """Largest mobility over the Newtonian one."""
+FASTEST = 1e150
+"""Largest viscosity times shear rate (Pa) of an iteration."""
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(6)
 WEIGHTS = 0.5 * WEIGHTS
 STEP = 0.001
@@ -24,12 +26,14 @@ class Flow:
     """Flow at some places of a film.
 
     ``stress``: shear stress of the slip (Pa), and ``softness``, its derivative by the logarithm of viscosity.
+    ``middle``: shear stress in the middle of the film, the mean of both surfaces.
     ``mobility``: flow against the gradient over it (m4/(N s)), with its exponents in viscosity, film and gradient.
     ``lost``: flow lost to unequal fluidity across the film, over it (m/s). ``rates``: shares of layers in the slip.
     """
 
     stress: np.ndarray
     softness: np.ndarray
+    middle: np.ndarray
     mobility: np.ndarray
     by_viscosity: np.ndarray
     by_film: np.ndarray
@@ -56,9 +60,11 @@ def flow(
     _, more_pushed = _sheared(fluid, pressure, newton, push * (1 + STEP))
     by_newton, by_push = (np.log(other / more) / np.log1p(STEP) for other in (more_thick, more_pushed))
     stress, thicker = (fluid.law.limited(one, pressure) for one in (stress, thicker))
+    slipping = np.sign(slip) * stress
     return Flow(
-        np.sign(slip) * stress,
+        slipping,
         (thicker - stress) / STEP,
+        slipping - film * gradient * tilt / mean,
         film**3 * spread * more,
         by_newton - 1,
         3 - by_newton + by_push,
@@ -66,6 +72,18 @@ def flow(
         slip * tilt / mean,
         thin / (LAYERS * mean[:, None]),
     )
+
+
+def heat_shares(fluid: Fluid, pressure: np.ndarray, film: np.ndarray, gradient: np.ndarray, moved: Flow) -> np.ndarray:
+    """Shares of the layers in the heat of shear: stress of slip and gradient together, times its rate.
+
+    Where both slip and gradient act, the heat is made on the side where their stresses add.
+    """
+    stress = moved.middle[:, None, None] + (film * gradient)[:, None, None] * PLACES
+    rate = np.clip(fluid.law.rate(stress, pressure[:, None, None]), -FASTEST, FASTEST)
+    heat = moved.rates * (stress * rate).mean(axis=-1)
+    whole = heat.sum(axis=1, keepdims=True)
+    return np.asarray(np.where(whole > 0, heat / np.where(whole > 0, whole, 1.0), moved.rates))
 
 
 def _sheared(fluid: Fluid, pressure: np.ndarray, newton: np.ndarray, push: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -93,7 +93,7 @@ def limited(law: Law, share: float) -> Law:
 class Fluid:
     """An oil of the solver: logarithm of viscosity (Pa s), density (kg/m3), shear, heat conduction in SI.
 
-    ``expansion``: relative density loss per kelvin in the heat of compression.
+    ``expansion``: relative density loss per kelvin over temperature (C), in the heat of compression.
     """
 
     log_viscosity: State
@@ -101,7 +101,7 @@ class Fluid:
     law: Law
     conductivity: float
     specific_heat: float
-    expansion: float
+    expansion: Callable[[np.ndarray], np.ndarray | float]
 
     def thinning(self, pressure: np.ndarray, celsius: np.ndarray) -> np.ndarray:
         """Derivative of the logarithm of viscosity by temperature (1/K), below zero."""
@@ -144,5 +144,5 @@ def fluid_of(oil: Oil, law: Law, viscosity: float = 1.0, pressure_viscosity: flo
         law,
         oil.conductivity,
         oil.specific_heat,
-        oil.expansion,
+        lambda celsius: oil.expansion * oil.density_15 / oil.density_at(celsius),
     )

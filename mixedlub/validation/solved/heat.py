@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from mixedlub.validation.contact import Solid
 
-LAYERS = 9
-"""Layers of equal thickness across the film, an odd number."""
+LAYERS = 15
+"""Layers of equal thickness across the film, an odd number: films within 0.8 % of 35 layers, friction within 0.5 %."""
 HEIGHTS = (np.arange(LAYERS) + 0.5) / LAYERS - 0.5
 """Middles of the layers over the thickness, from the middle of the film."""
 SQUARES = HEIGHTS**2 + 1 / (12 * LAYERS**2)
 """Means of the square of the height over each layer."""
+PLACES = HEIGHTS[:, None] + np.array([-1.0, 1.0]) / (2 * np.sqrt(3) * LAYERS)
+"""Two places in each layer by which means over it are exact to the third power (Gauss)."""
 
 
 @dataclass(frozen=True)
@@ -24,10 +26,11 @@ class Warmth:
     first: np.ndarray
     second: np.ndarray
 
-    def bounded(self, before: Warmth, most: float) -> Warmth:
-        """The same temperatures, with changes from an earlier state within a bound."""
-        layers = np.clip(self.layers, before.layers - most, before.layers + most)
-        return replace(self, layers=layers)
+    def towards(self, new: Warmth, pace: float, most: float) -> Warmth:
+        """A share of the way to new temperatures, each layer within a bound."""
+        layers = self.layers + np.clip(pace * (new.layers - self.layers), -most, most)
+        first, second = (a + pace * (b - a) for a, b in ((self.first, new.first), (self.second, new.second)))
+        return Warmth(layers, first, second)
 
     @property
     def film(self) -> np.ndarray:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mixedlub.validation.contact import KELVIN, Solid
-from mixedlub.validation.solved.flow import Flow, flow
+from mixedlub.validation.solved.flow import Flow, flow, heat_shares
 from mixedlub.validation.solved.fluid import Fluid
 from mixedlub.validation.solved.heat import LAYERS, SQUARES, Sources, Warmth, flash, resting, warmed
 from mixedlub.validation.solved.mesh import CELLS, Mesh, mesh, to_ends
@@ -19,6 +19,8 @@ WIDEST_STEP, PENALTY, LOWEST, HIGHEST = 0.25, 1e5, 0.1, 1.8
 """Largest change of pressure (p_h) in a step, strength of the penalty on tension, and bounds of the pressure."""
 CALM, NEAR, HOTTEST_STEP = 0.1, 5.0, 30.0
 """Change of pressure (p_h) below which heat acts; of temperature (K) near the solution; its bound in a step (K)."""
+SLOW = 0.5
+"""Share of a step of the temperatures once they drift apart from the pressures."""
 INSIDE = 1.2
 """Half widths within which temperatures must settle: eddies before the contact settle last and change nothing."""
 THINNEST = 1e-5
@@ -200,19 +202,19 @@ class Problem:
         gradient = 0.5 * (rise[1:] + rise[:-1])
         moved = flow(fluid, pressure, film, gradient, guess.warmth, place.slip)
         slid, rolled = full * moved.stress * place.slip, full * gradient**2 * moved.mobility
-        share = moved.rates
-        falls = -fluid.thinning(pressure[:, None], guess.warmth.layers) * share
-        # Heat of slip where the oil is thin; heat of the pressure gradient near the walls.
-        outer = share * SQUARES
-        made = slid[:, None] * share + (rolled / outer.sum(axis=1))[:, None] * outer
-        drawn = slid * near
-        slopes = -((drawn + full * moved.softness * abs(place.slip))[:, None] * share)[:, :, None] * falls[:, None, :]
+        share, part = moved.rates, heat_shares(fluid, pressure, film, gradient, moved)
+        made = (slid + rolled)[:, None] * part
+        thinning = -fluid.thinning(pressure[:, None], guess.warmth.layers)
+        drawn = ((slid + rolled) * near)[:, None] * part * thinning
+        weaker = (full * moved.softness * abs(place.slip))[:, None] * share * thinning
+        slopes = -part[:, :, None] * (drawn + weaker)[:, None, :]
         each = np.arange(LAYERS)
-        slopes[:, each, each] += drawn[:, None] * falls
+        slopes[:, each, each] += drawn
         # Speed of the slip by the fluidities below a layer, and a parabola of the flow by pressure.
         speeds = place.speeds[0] + place.slip * (np.cumsum(share, axis=1) - 0.5 * share)
         speeds = speeds - 6 * (gradient * moved.mobility / film)[:, None] * (0.25 - SQUARES)
-        squeezed = fluid.expansion * (guess.warmth.layers + KELVIN) * speeds * (full * gradient * film)[:, None]
+        warm = fluid.expansion(guess.warmth.layers)
+        squeezed = warm * (guess.warmth.layers + KELVIN) * speeds * (full * gradient * film)[:, None]
         mass = (fluid.density(pressure, guess.warmth.film) * film)[:, None] * speeds / LAYERS
         carried = mass * fluid.specific_heat
         widths = self.mesh.widths * place.half_width
@@ -263,7 +265,7 @@ def solve(
 
 def _settled(problem: Problem, guess: Guess, thermal: bool) -> Guess | None:
     """Solution of the iteration; None if it does not settle."""
-    near, inside = False, np.abs(problem.mesh.middles) < INSIDE
+    near, inside, pace, last = False, np.abs(problem.mesh.middles) < INSIDE, 1.0, np.inf
     for _ in range(ROUNDS):
         change, rise = problem.step(guess)
         size = float(np.max(np.abs(change)))
@@ -274,10 +276,11 @@ def _settled(problem: Problem, guess: Guess, thermal: bool) -> Guess | None:
         guess = replace(guess, pressure=pressure, approach=guess.approach + share * rise)
         drift = np.inf if thermal else 0.0
         if thermal and size < CALM:
-            warmth = problem.heated(guess, near).warmth.bounded(guess.warmth, HOTTEST_STEP)
+            warmth = problem.heated(guess, near).warmth
             drift = float(np.max(np.abs(warmth.layers - guess.warmth.layers)[inside]))
-            near = drift < NEAR
-            guess = replace(guess, warmth=warmth)
+            pace = SLOW if near and drift > last else pace
+            near, last = drift < NEAR, drift
+            guess = replace(guess, warmth=guess.warmth.towards(warmth, pace, HOTTEST_STEP))
         if size < SETTLED and drift < SETTLED_KELVIN:
             return guess
     return None
@@ -288,7 +291,7 @@ def _solution(problem: Problem, guess: Guess) -> Solution:
     found = problem.heated(guess)
     widths, film = problem.mesh.widths * place.half_width, found.film
     pressure = place.pressure * guess.pressure
-    stress = found.flow.stress * _filled(guess.pressure)
+    stress = found.flow.middle * _filled(guess.pressure)
     dense = problem.fluid.density(pressure, guess.warmth.film) / problem.resting_density
     central, flowing = (float(np.interp(0.0, middles, values)) for values in (film, film * dense))
     return Solution(
