@@ -66,6 +66,7 @@ STEPS: Mapping[str, tuple[str, ...]] = {
     "load of film and asperities": ("balance", "film", "film_roughness", "asperities", "heights", "friction"),
     "load sharing of the teeth": ("averaging",),
     "shear of the film": ("effective_viscosity",),
+    "stress at the largest pressure": ("effective_viscosity", "viscosity_pressure", "contact_pressure"),
     "viscosity over temperature": (),
     "viscosity under pressure": ("viscosity_law", "viscosity_pressure"),
 }

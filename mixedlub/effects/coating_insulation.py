@@ -29,7 +29,7 @@ from mixedlub.laws import heating
     fingerprint={"speed": "-", "slide_roll_ratio": "-"},
     separated_by="a change of the coating alone: heating of uncoated steel stays, insulation goes with the coating, "
     "and at thick films a lower boundary friction would have no effect",
-    applied_after=("film_heating",),
+    applied_after=("contact_average", "film_heating"),
 )
 def coating_insulation(
     shear_stress: np.ndarray,

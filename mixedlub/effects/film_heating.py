@@ -39,6 +39,7 @@ from mixedlub.laws import heating
     separated_by="friction against sliding at fixed rolling speed: heating bends it down at high sliding and leaves "
     "the slope at small sliding; a limiting stress does so at a level set by pressure alone",
     valid={"slide_roll_ratio": (0.0, 2.0)},
+    applied_after=("contact_average",),
 )
 def film_heating(
     shear_stress: np.ndarray,

@@ -37,7 +37,7 @@ def _against_base(law: Regression) -> dict[str, float]:
             "exponent of speed and viscosity beyond that of the base law",
             null=0.0,
             symbol="a",
-            base_sd=0.01,
+            base_sd=0.013,
         ),
         Parameter(
             "load_exponent",
@@ -46,7 +46,7 @@ def _against_base(law: Regression) -> dict[str, float]:
             "exponent of load beyond that of the base law",
             null=0.0,
             symbol="c",
-            base_sd=0.02,
+            base_sd=0.055,
         ),
         Parameter(
             "material_exponent",

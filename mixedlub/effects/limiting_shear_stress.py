@@ -46,7 +46,7 @@ REFERENCE_PRESSURE = 1e9
     fingerprint={"load": "-", "speed": "-", "oil_temperature": "+", "roughness": "+", "slide_roll_ratio": "-"},
     separated_by="smooth surfaces, cold oil, high load: friction then stays at one level whatever the sliding and "
     "rolling speed, and the level moves with pressure only",
-    applied_after=("film_heating", "coating_insulation", "contact_creep"),
+    applied_after=("contact_average", "film_heating", "coating_insulation", "contact_creep"),
 )
 def limiting_shear_stress(
     shear_stress: np.ndarray,

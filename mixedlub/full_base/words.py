@@ -2,7 +2,7 @@
 
 FULL = "full_solution"
 """Name of this base in files."""
-CONTAINED = ("film_heating", "inlet_shear_heating", "film_law")
+CONTAINED = ("film_heating", "inlet_shear_heating", "film_law", "contact_average")
 """Effects that full solutions contain or replace."""
 FULL_INPUTS = {"film_ratio_factor": 1.0, "stress_ratio_factor": 1.0}
 """Inputs of the chain by which the errors of film and friction are calibrated."""

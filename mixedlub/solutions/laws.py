@@ -13,6 +13,7 @@ import numpy as np
 from mixedlub.chain.law import Law
 from mixedlub.chain.ranges import beyond
 from mixedlub.chain.slots import FILM, FILM_FRICTION, SHEAR, VISCOSITY
+from mixedlub.effects.contact_average import contact_average
 from mixedlub.effects.film_heating import film_heating
 from mixedlub.effects.inlet_shear_heating import inlet_shear_heating
 from mixedlub.effects.rolling_resistance import rolling_resistance
@@ -147,6 +148,7 @@ def _readings() -> Iterator[Compared]:
     yield Compared("viscosity_pressure = mean", "isothermal_friction", at_mean, "viscosity at the mean Hertz pressure")
     both = partial(_friction, laws={"fluid_friction": mixture.fluid_friction_at_mean_pressure}, pressure=MEAN)
     yield Compared("both pressures = mean", "isothermal_friction", both, "viscosity and stress at the mean pressure")
+    yield Compared("base model and contact_average", "isothermal_friction", _averaged, "mean over the contact")
 
 
 def _friction(
@@ -158,6 +160,12 @@ def _friction(
         at = {"hertz_pressure": pressure * state["hertz_pressure"]} if name == "contact_viscosity" else {}
         own[name] = called(laws.get(name, law), {**own, **at})
     return np.asarray(own["fluid_friction"])
+
+
+def _averaged(state: State, _: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Isothermal friction with the mean over the contact in place of the stress at the largest pressure."""
+    own = {**state, "mean_pressure": MEAN * state["hertz_pressure"]}
+    return np.asarray(called(contact_average, own, share=1.0) / state["hertz_pressure"])
 
 
 def _own_viscosity(own_viscosity: np.ndarray) -> np.ndarray:

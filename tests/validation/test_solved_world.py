@@ -102,7 +102,7 @@ def test_a_rig_follows_its_solutions_and_what_is_switched_on(disc):
 )  # fmt: skip
 def test_each_switch_changes_the_readings_of_a_rig(monkeypatch, kind, switch, lowered):
     """On tables of two nodes a condition."""
-    for name in ("SLIPS", "LOADS", "SPEEDS", "LOADS_OF_TEETH"):
+    for name in ("SLIPS", "LOADS", "SPEEDS"):
         monkeypatch.setattr(tables, name, 2)
     rig, world, forms, z = draw(np.random.default_rng(2), kind, switch, full_base=False)
     assert {FILM, SHEAR} <= {one.law.id for one in world}

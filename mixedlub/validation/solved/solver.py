@@ -290,8 +290,10 @@ def _solution(problem: Problem, guess: Guess) -> Solution:
     place, middles = problem.place, problem.mesh.middles
     found = problem.heated(guess)
     widths, film = problem.mesh.widths * place.half_width, found.film
-    pressure = place.pressure * guess.pressure
-    stress = found.flow.middle * _filled(guess.pressure)
+    pressure, rise = place.pressure * guess.pressure, problem.slopes(guess)
+    # The stress of the slip is far from linear in the gradient, which jumps from one side of a cell to the other.
+    sides = [flow(problem.fluid, pressure, film, one, guess.warmth, place.slip) for one in (rise[1:], rise[:-1])]
+    stress = 0.5 * (sides[0].middle + sides[1].middle) * _filled(guess.pressure)
     dense = problem.fluid.density(pressure, guess.warmth.film) / problem.resting_density
     central, flowing = (float(np.interp(0.0, middles, values)) for values in (film, film * dense))
     return Solution(

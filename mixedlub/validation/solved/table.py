@@ -13,8 +13,8 @@ from mixedlub.validation.solved.fluid import Law, eyring, fluid_of
 from mixedlub.validation.solved.mesh import CELLS
 from mixedlub.validation.solved.solver import Place, Solution, UnsolvedError, solve
 
-SLIPS, LOADS, SPEEDS, LOADS_OF_TEETH = 5, 3, 5, 5
-"""Nodes along each condition; loads on teeth spread more."""
+SLIPS, LOADS, SPEEDS = 5, 5, 5
+"""Nodes along each condition."""
 LEAST_SLIP, MOST_SLIP = 0.015, 1.9
 """Slide-to-roll ratios that are solved; below, friction is linear in the ratio."""
 OTHER_CELLS = (CELLS, 200, 110)
@@ -119,7 +119,7 @@ def grid_of(rig: Inputs) -> Grid:
         np.unique(rig.temperature),
         sides,
         slips,
-        between(float(loads.min()), float(loads.max()), LOADS_OF_TEETH if rig.is_mesh else LOADS),
+        between(float(loads.min()), float(loads.max()), LOADS),
         between(float(speeds.min()), float(speeds.max()), SPEEDS),
         radii,
     )
