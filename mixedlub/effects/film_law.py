@@ -46,7 +46,7 @@ def _against_base(law: Regression) -> dict[str, float]:
             "exponent of load beyond that of the base law",
             null=0.0,
             symbol="c",
-            base_sd=0.055,
+            base_sd=0.03,
         ),
         Parameter(
             "material_exponent",

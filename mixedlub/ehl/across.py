@@ -6,7 +6,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 COUNT = 11
-"""Nodes across: friction agrees within 0.05 % with 13 nodes up to slide-to-roll ratios of 1."""
+"""Nodes across: friction agrees within 0.05 % with 13 nodes, within 0.7 % with 17 in fast thick films."""
 NODES = -0.5 * np.cos(np.pi * np.arange(COUNT) / (COUNT - 1))
 """Positions across, in film thicknesses."""
 _FROM_VALUES = np.linalg.inv(chebyshev.chebvander(2.0 * NODES, COUNT - 1))

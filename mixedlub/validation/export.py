@@ -16,7 +16,7 @@ from mixedlub.validation.answers import Truth, read_truth
 from mixedlub.validation.baselines import BASELINES, RIGS
 from mixedlub.validation.battery import generate, plan
 from mixedlub.validation.planted import MEASUREMENT
-from mixedlub.validation.rig import LAWS
+from mixedlub.validation.rig import NAMES
 from mixedlub.validation.run import Progress, answer_all, quiet, unsealed
 from mixedlub.validation.sample_case import Order
 from profiles.errors import InputError
@@ -86,7 +86,7 @@ def _about(truths: Sequence[Truth], dealing: str) -> dict[str, Any]:
         "dealt_by": dealing,
         "ids": sorted({name for truth in truths for name in truth.candidates}),
         "measurement": sorted(MEASUREMENT),
-        "laws": sorted(LAWS),
+        "laws": sorted(NAMES),
         "follows_other_laws": follows,
     }
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from mixedlub.validation.answers import Answer, Truth
 from mixedlub.validation.planted import MEASUREMENT
-from mixedlub.validation.rig import LAWS
+from mixedlub.validation.rig import NAMES, steps
 from profiles.errors import InputError
 
 Pair = tuple[Truth, Answer]
@@ -78,7 +78,7 @@ def physics(label: frozenset[str], truth: Truth) -> frozenset[str]:
     """Missing physics named by an explanation: without laws if the rig follows other laws, and their companions."""
     if not truth.laws:
         return label
-    return label - LAWS - truth.beside if label & truth.label else label - LAWS or frozenset({"none"})
+    return label - NAMES - truth.beside if label & truth.label else label - NAMES or frozenset({"none"})
 
 
 def right(truth: Truth, answer: Answer) -> bool:
@@ -98,18 +98,18 @@ def together(truth: Truth, answer: Answer) -> bool:
 
 def laws_named(laws: frozenset[str], truth: Truth, answer: Answer) -> float:
     """Share of the laws named by the verdict or a tied explanation; explanations with a wrong law do not count."""
-    honest = [one & LAWS for one in (answer.verdict, *answer.tied) if one & LAWS <= truth.laws]
+    honest = [steps(one) for one in (answer.verdict, *answer.tied) if steps(one) <= truth.laws]
     return len(laws & frozenset().union(*honest)) / len(laws)
 
 
 def false_law(truth: Truth, answer: Answer) -> bool:
     """Whether the verdict has a law that the rig does not follow."""
-    return bool(answer.verdict & LAWS - truth.laws)
+    return bool(steps(answer.verdict) - truth.laws)
 
 
 def false_physics(truth: Truth, answer: Answer) -> bool:
     """Whether an effect that is not planted has a probability of 0.9 or more."""
-    so = truth.label | truth.beside | LAWS | ANSWERS_WITHOUT_EFFECT
+    so = truth.label | truth.beside | NAMES | ANSWERS_WITHOUT_EFFECT
     return any(p >= 0.9 for name, p in answer.probabilities.items() if name not in so)
 
 

@@ -20,6 +20,19 @@ FILM, ASPERITIES, BALANCE, MIXTURE, SHEAR, SHARING, PRESSURE, TEMPERATURE = (
 )
 LAWS = frozenset({FILM, ASPERITIES, BALANCE, MIXTURE, SHEAR, SHARING, PRESSURE, TEMPERATURE})
 """Steps of the base chain, by the ids of their laws."""
+AVERAGE = "contact_average"
+"""Another id of a law of shear, of the catalogue alone."""
+NAMES = LAWS | {AVERAGE}
+"""Ids of laws in an answer."""
+
+
+def steps(names: Collection[str]) -> frozenset[str]:
+    """Steps of the base chain whose laws are named.
+
+    >>> sorted(steps({"windage", "contact_average", "film_law"}))
+    ['film_law', 'shear_law']
+    """
+    return frozenset(SHEAR if name == AVERAGE else name for name in names) & LAWS
 
 
 @dataclass(frozen=True)

@@ -119,7 +119,7 @@ def test_effects_that_solutions_contain_are_not_offered(cache: Path) -> None:
     case = discs()
     full, plain = Forward(case, case.recordings), Forward(case_of(DISCS, ROWS), case.recordings)
     gone = {e.id for e in plain.effects()} - {e.id for e in full.effects()}
-    assert gone == {"film_heating", "inlet_shear_heating", "film_law"}
+    assert gone == {"film_heating", "inlet_shear_heating", "film_law", "contact_average"}
 
 
 def test_the_formulas_are_what_they_were(cache: Path) -> None:

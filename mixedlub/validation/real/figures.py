@@ -13,7 +13,7 @@ from mixedlub.validation.answers import Answer, read_answer
 from mixedlub.validation.measures import ANSWERS_WITHOUT_EFFECT
 from mixedlub.validation.planted import MEASUREMENT
 from mixedlub.validation.real.deal import HIDDEN, PAIRED, PLANTED, UNTOUCHED
-from mixedlub.validation.rig import LAWS
+from mixedlub.validation.rig import NAMES
 from mixedlub.validation.score import Figure, any_case, at_least, at_most, share
 
 CLAIM = 0.9
@@ -104,7 +104,7 @@ def fits(truth: Truth, explanation: frozenset[str]) -> bool:
     """Whether an explanation is right: it names a right cause and nothing that does not act."""
     if explanation == {"unknown"}:
         return truth.unknown_right
-    named = explanation - ANSWERS_WITHOUT_EFFECT - LAWS
+    named = explanation - ANSWERS_WITHOUT_EFFECT - NAMES
     if not truth.right:
         return not named and not truth.unknown_right
     return bool(explanation & truth.right) and named <= truth.right | truth.also
@@ -122,7 +122,7 @@ def named(truth: Truth, found: Located) -> bool:
 
 def falsely_claimed(truth: Truth, found: Located) -> bool:
     """Whether an id that does not act has a probability of 0.9 or more."""
-    so = truth.right | truth.also | LAWS | ANSWERS_WITHOUT_EFFECT
+    so = truth.right | truth.also | NAMES | ANSWERS_WITHOUT_EFFECT
     return any(p >= CLAIM for name, p in found.answer.probabilities.items() if name not in so)
 
 
@@ -158,7 +158,7 @@ def helps(truth: Truth, found: Located) -> bool:
 
 
 def _none_or_tied(truth: Truth, found: Located) -> bool:
-    return any(one == {"none"} or one <= LAWS for one in (found.answer.verdict, *found.answer.tied))
+    return any(one == {"none"} or one <= NAMES for one in (found.answer.verdict, *found.answer.tied))
 
 
 def _of(label: str, **wanted: object) -> Callable[[Truth, Located], bool]:

@@ -20,7 +20,7 @@ WIDEST_STEP, PENALTY, LOWEST, HIGHEST = 0.25, 1e5, 0.1, 1.8
 CALM, NEAR, HOTTEST_STEP = 0.1, 5.0, 30.0
 """Change of pressure (p_h) below which heat acts; of temperature (K) near the solution; its bound in a step (K)."""
 SLOW = 0.5
-"""Share of a step of the temperatures once they drift apart from the pressures."""
+"""Share of each further step of the temperatures, once a step near the solution was larger than the one before."""
 INSIDE = 1.2
 """Half widths within which temperatures must settle: eddies before the contact settle last and change nothing."""
 THINNEST = 1e-5
@@ -213,8 +213,8 @@ class Problem:
         # Speed of the slip by the fluidities below a layer, and a parabola of the flow by pressure.
         speeds = place.speeds[0] + place.slip * (np.cumsum(share, axis=1) - 0.5 * share)
         speeds = speeds - 6 * (gradient * moved.mobility / film)[:, None] * (0.25 - SQUARES)
-        warm = fluid.expansion(guess.warmth.layers)
-        squeezed = warm * (guess.warmth.layers + KELVIN) * speeds * (full * gradient * film)[:, None]
+        expansion = fluid.expansion(guess.warmth.layers)
+        squeezed = expansion * (guess.warmth.layers + KELVIN) * speeds * (full * gradient * film)[:, None]
         mass = (fluid.density(pressure, guess.warmth.film) * film)[:, None] * speeds / LAYERS
         carried = mass * fluid.specific_heat
         widths = self.mesh.widths * place.half_width
