@@ -186,10 +186,10 @@ def unnamed(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
 
 @pytest.fixture(scope="session")
 def teeth(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
-    """Tooth friction over roll angle, a tenth too high near the pitch point."""
+    """Tooth friction over roll angle, a third too high at one place beside the pitch point."""
 
     def change(conditions: dict[str, np.ndarray], base: np.ndarray) -> np.ndarray:
-        return base * (1.0 + 0.3 * np.exp(-(((conditions["roll_angle_deg"] - 23.0) / 2.0) ** 2)))
+        return base * (1.0 + 0.3 * np.exp(-(((conditions["roll_angle_deg"] - 20.0) / 2.0) ** 2)))
 
     return diagnose_case(write_case(tmp_path_factory.mktemp("teeth"), "mesh_friction", change), exclude=left_out())
 
