@@ -184,14 +184,25 @@ def unnamed(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
     return diagnose_case(write_case(tmp_path_factory.mktemp("unnamed"), "gear_pair", change), exclude=left_out())
 
 
-@pytest.fixture(scope="session")
-def teeth(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
-    """Tooth friction over roll angle, a third too high at one place beside the pitch point."""
+def _bumped(folder: Path, name: str, degrees: float) -> Diagnosis:
+    """Diagnosis of tooth friction over roll angle, up to 30 % too high about a place."""
 
     def change(conditions: dict[str, np.ndarray], base: np.ndarray) -> np.ndarray:
-        return base * (1.0 + 0.3 * np.exp(-(((conditions["roll_angle_deg"] - 20.0) / 2.0) ** 2)))
+        return base * (1.0 + 0.3 * np.exp(-(((conditions["roll_angle_deg"] - degrees) / 2.0) ** 2)))
 
-    return diagnose_case(write_case(tmp_path_factory.mktemp("teeth"), "mesh_friction", change), exclude=left_out())
+    return diagnose_case(write_case(folder / name, "mesh_friction", change), exclude=left_out())
+
+
+@pytest.fixture(scope="session")
+def teeth(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
+    """A bump near the pitch point: sliding over rolling describes it."""
+    return _bumped(tmp_path_factory.mktemp("bumped"), "teeth", 23.0)
+
+
+@pytest.fixture(scope="session")
+def lawless_teeth(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
+    """A bump beside the pitch point, which no law describes."""
+    return _bumped(tmp_path_factory.mktemp("bumped"), "beside", 20.0)
 
 
 @pytest.fixture(scope="session")

@@ -113,21 +113,21 @@ def test_the_improved_case_follows_the_readings(named: Diagnosis) -> None:
     assert np.sqrt(np.mean(residual[kept] ** 2)) < 1.5
 
 
-def test_a_mismatch_without_law_is_a_table(teeth: Diagnosis, tmp_path: Path) -> None:
-    assert teeth.posterior.verdict.is_discrepancy
-    assert teeth.heldout.after < teeth.heldout.before
-    case = read_case(written(case_files(Answer(teeth).improved), tmp_path / "improved"))
-    off = (readings(case) - teeth.recorded.predicted) / teeth.recorded.sd
+def test_a_mismatch_without_law_is_a_table(lawless_teeth: Diagnosis, tmp_path: Path) -> None:
+    assert lawless_teeth.posterior.verdict.is_discrepancy
+    assert lawless_teeth.heldout.after < lawless_teeth.heldout.before
+    case = read_case(written(case_files(Answer(lawless_teeth).improved), tmp_path / "improved"))
+    off = (readings(case) - lawless_teeth.recorded.predicted) / lawless_teeth.recorded.sd
     assert np.max(np.abs(off)) < 0.01
-    assert teeth.tabulated.largest_error < 0.01
+    assert lawless_teeth.tabulated.largest_error < 0.01
     assert case.missing is not None
     assert (case.missing.table["missing_sd"] > 0.0).all()
 
 
-def test_outside_its_table_a_row_says_so_and_keeps_the_end(teeth: Diagnosis) -> None:
-    case = Answer(teeth).improved
-    rows = teeth.search.problem.rows
-    one = {n: v[:1] for n, v in rows.columns.items() if n not in ("run", teeth.case.quantity)}
+def test_outside_its_table_a_row_says_so_and_keeps_the_end(lawless_teeth: Diagnosis) -> None:
+    case = Answer(lawless_teeth).improved
+    rows = lawless_teeth.search.problem.rows
+    one = {n: v[:1] for n, v in rows.columns.items() if n not in ("run", lawless_teeth.case.quantity)}
     at = {n: np.repeat(v, 4) for n, v in one.items()} | {"roll_angle_deg": np.array([16.0, 15.0, 14.0, 10.0])}
     with collected() as said:
         found = simulate(case, conditions_for(case, at))
@@ -176,9 +176,9 @@ def test_an_answer_worse_than_calibration_on_left_out_levels_is_not_handed_on(un
 
 
 def test_the_files_of_an_earlier_improved_model_are_removed(
-    complete: Diagnosis, teeth: Diagnosis, tmp_path: Path
+    complete: Diagnosis, lawless_teeth: Diagnosis, tmp_path: Path
 ) -> None:
-    write(improved_files(teeth), tmp_path)
+    write(improved_files(lawless_teeth), tmp_path)
     (tmp_path / "improved" / "own.csv").write_text("run\n")
     assert (tmp_path / "improved" / "missing_part.csv").exists()
     write(improved_files(complete), tmp_path)
