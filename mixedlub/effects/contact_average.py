@@ -65,8 +65,8 @@ def contact_average(
     0.5 of the friction at the largest pressure on lines, and 0.1 to 0.3 on points; sheared far above the Eyring stress
     it is as large, or up to a fifth larger. The stress afterwards is friction times the largest pressure, also where
     heat acts on it. Full solutions of line contacts have the mean. Contacts of points count by rings. The film is the
-    central one everywhere, and every viscosity grows along the contact in Roelands' shape, whose 9.67 and p_r make the
-    form belong to Pa s and Pa.
+    central one everywhere, and every viscosity grows along the contact in Roelands' shape. His 9.67 and p_r make
+    the form belong to Pa s and Pa.
 
     >>> rest = dict(viscosity=0.0031853, pressure_viscosity=20e-9, hertz_pressure=0.5e9, mean_pressure=0.3927e9)
     >>> rest |= dict(sliding_speed=1e-3, film_thickness=1e-6, eyring_stress=1e12, share=1.0)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mixedlub.validation.contact import KELVIN, Solid
-from mixedlub.validation.solved.flow import Flow, flow, heat_shares
+from mixedlub.validation.solved.flow import flow, heat_shares
 from mixedlub.validation.solved.fluid import Fluid
 from mixedlub.validation.solved.heat import LAYERS, SQUARES, Sources, Warmth, flash, resting, warmed
 from mixedlub.validation.solved.mesh import CELLS, Mesh, mesh, to_ends
@@ -106,10 +106,9 @@ class Guess:
 
 @dataclass(frozen=True)
 class Heated:
-    """Temperatures after a march; flow, film (m), heat of shear and heat into both walls (W/m2) by cell."""
+    """Temperatures after a march; film (m), heat of shear and heat into both walls (W/m2) by cell."""
 
     warmth: Warmth
-    flow: Flow
     film: np.ndarray
     made: np.ndarray
     taken: np.ndarray
@@ -220,7 +219,7 @@ class Problem:
         widths = self.mesh.widths * place.half_width
         sources = Sources(made + squeezed / LAYERS, slopes, fluid.conductivity / film, carried, widths)
         warmth, flux = warmed(guess.warmth, sources, self.rises, (place.celsius, *self.bulk))
-        return Heated(warmth, moved, film, made.sum(axis=1), full * flux.sum(axis=0))
+        return Heated(warmth, film, made.sum(axis=1), full * flux.sum(axis=0))
 
 
 def _at_ends(warmth: Warmth) -> Warmth:
